@@ -1,0 +1,81 @@
+/* The design case: an INI text, parsed by libinih. Every file of a run carries the text of its case in
+ * /case/text, so that no stage needs a file beyond its named inputs. Keys: pneumorph-case(5). */
+#ifndef PM_CASE_H
+#define PM_CASE_H
+
+#include <stddef.h>
+
+#include "common/base/status.h"
+
+enum { PM_MAX_CHAMBERS = 8, PM_MAX_OPS = 12, PM_MAX_LAW_PARAMETERS = 12 };
+
+enum pm_shape { PM_SHAPE_SPHERE, PM_SHAPE_ELLIPSOID, PM_SHAPE_CAPSULE, PM_SHAPE_BELLOWS };
+enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE };
+enum pm_form { PM_FORM_BOUNDARY = 0, PM_FORM_VOLUME = 1 };
+
+/* [chamberN]: a shape of revolution about a line parallel to z through `center`. */
+struct pm_chamber {
+    enum pm_shape shape;
+    double center[3]; /* [mm] */
+    double radius;    /* mean radius [mm] */
+    double length;    /* along z, ends included [mm] */
+    double amplitude; /* of the bellows wave, crest to mean [mm] */
+    double pitch;     /* of the bellows wave [mm] */
+    double spacing;   /* wanted spacing of control points [mm] */
+};
+
+/* Orthogonal operations x -> Q x + t that map the robot onto itself, identity first, with the chamber
+ * permutation: chamber r goes to chamber chamber[r]. Chambers are 0-based. */
+struct pm_symmetry {
+    ptrdiff_t nops;
+    double Q[PM_MAX_OPS][9];
+    double t[PM_MAX_OPS][3];
+    int chamber[PM_MAX_OPS][PM_MAX_CHAMBERS];
+};
+
+struct pm_case {
+    char *text; /* the INI text itself, NUL terminated, owned */
+    char name[64];
+    /* [material] */
+    char law[32];                          /* neo-hookean, mooney-rivlin, yeoh */
+    double law_parameter[PM_MAX_LAW_PARAMETERS]; /* by law: neo-hookean {mu}, mooney-rivlin {c10, c01}, yeoh {c1, c2, c3} [MPa] */
+    double mu, kappa;                      /* small-strain shear modulus, bulk modulus [MPa] */
+    /* [body] */
+    enum pm_body body;
+    double height;      /* H [mm] */
+    double wall;        /* envelope: distance from the chambers along their normal [mm] */
+    double web;         /* envelope: half-width of the web between the chambers [mm] */
+    double body_radius; /* cylinder [mm] */
+    long around, rows;  /* control points of the exterior B-spline around and along */
+    /* chambers, images under the symmetry included */
+    ptrdiff_t nchambers;
+    struct pm_chamber chamber[PM_MAX_CHAMBERS];
+    struct pm_symmetry symmetry;
+    /* [actuation], ratios p/mu */
+    double pmin, pmax;
+    long points; /* Gauss points per axis */
+    /* [workspace] */
+    char measure[16]; /* 2T ... */
+    enum pm_form form;
+    int dofs[6];  /* 0-based rows of (U, J) that the measure uses */
+    int ndofs;
+    /* [mesh] */
+    double mesh_size; /* wanted edge length [mm] */
+    /* [constraints] */
+    double wall_min;      /* d_min [mm] */
+    double curvature_max; /* C_max [1/mm] */
+    double cap_min;       /* chambers stay this far from the planes z = 0 and z = H [mm] */
+    /* [optimisation] */
+    double radius, radius_max; /* trust radius at the start and its cap: rms surface displacement [mm] */
+    long remesh_every;         /* reconstruction at every n-th iteration, 0: never */
+    long max_iterations;
+    double tolerance;          /* relative change of the measure over five iterations */
+};
+
+enum pm_status pm_case_parse(const char *text, const char *name, struct pm_case *c, struct pm_err *err);
+enum pm_status pm_case_load(const char *path, struct pm_case *c, struct pm_err *err);
+/* A case that states only a material (imported meshes, tests): parse of a generated text. */
+enum pm_status pm_case_copy(const struct pm_case *from, struct pm_case *to, struct pm_err *err);
+void pm_case_release(struct pm_case *c);
+
+#endif
