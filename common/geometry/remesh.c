@@ -1,0 +1,186 @@
+#include "common/geometry/remesh.h"
+
+#include <math.h>
+
+#include "common/base/memory.h"
+#include "common/geometry/remesh_edit.h"
+
+void pm_patch_release(struct pm_patch *p)
+{
+    pm_free(p->S);
+    pm_free(p->x);
+    pm_free(p->size);
+    pm_free(p->rim);
+    pm_free(p->tri);
+    *p = (struct pm_patch){0};
+}
+
+/* Largest principal curvature |k| = |H| + sqrt(H^2 - K) [theory 6.2]. */
+static double curvature(const double r_a[6], const double r_ab[9], const double n[3])
+{
+    double g[3] = {0}, b[3] = {0};
+    for (int i = 0; i < 3; i++) {
+        g[0] += r_a[i] * r_a[i];
+        g[1] += r_a[i] * r_a[3 + i];
+        g[2] += r_a[3 + i] * r_a[3 + i];
+        for (int k = 0; k < 3; k++)
+            b[k] += r_ab[3 * k + i] * n[i];
+    }
+    const double det = g[0] * g[2] - g[1] * g[1];
+    if (!(det > 0))
+        return INFINITY;
+    const double H = (g[2] * b[0] - 2 * g[1] * b[1] + g[0] * b[2]) / (2 * det);
+    const double K = (b[0] * b[2] - b[1] * b[1]) / det;
+    return fabs(H) + sqrt(fmax(H * H - K, 0));
+}
+
+/* Wanted length at every node, then at most `growth` per unit length along edges. */
+static enum pm_status set_sizes(struct pm_edit *m, const struct pm_remesh_opts *o, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    for (ptrdiff_t a = 0; a < m->nn; a++) {
+        double r_a[6], r_ab[9];
+        if (m->degree[a] == 0)
+            continue;
+        PM_TRY(pm_map_point(m->map, m->phi, m->S + 3 * a, &m->basis, NULL, r_a, r_ab, err));
+        const double k = curvature(r_a, r_ab, m->normal + 3 * a);
+        m->size[a] = fmax(o->size_min, fmin(o->size, o->crest / k));
+    }
+    for (int pass = 0, changed = 1; pass < 20 && changed; pass++) {
+        changed = 0;
+        for (ptrdiff_t t = 0; t < m->nt; t++) {
+            for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
+                const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
+                const double *p = m->x + 3 * a, *q = m->x + 3 * b;
+                const double l = sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
+                                      (p[2] - q[2]) * (p[2] - q[2]));
+                const double ha = fmin(m->size[a], m->size[b] + o->growth * l);
+                const double hb = fmin(m->size[b], m->size[a] + o->growth * l);
+                changed |= ha < m->size[a] * (1 - 1e-3) || hb < m->size[b] * (1 - 1e-3);
+                m->size[a] = ha;
+                m->size[b] = hb;
+            }
+        }
+    }
+done:
+    return status;
+}
+
+/* Where smoothing would move node a: to the mean of the centroids around it, weighted by area over the
+ * square of the wanted length; on a rim between its two neighbours. Displacement in d. */
+static void target(const struct pm_edit *m, ptrdiff_t a, double d[3])
+{
+    double sum = 0;
+    d[0] = d[1] = d[2] = 0;
+    for (int k = 0; k < m->degree[a]; k++) {
+        const int32_t *v = m->tri + 3 * (ptrdiff_t)m->around[a * PM_EDIT_DEGREE + k];
+        const double *p = m->x + 3 * (ptrdiff_t)v[0], *q = m->x + 3 * (ptrdiff_t)v[1],
+                     *r = m->x + 3 * (ptrdiff_t)v[2];
+        double u[3], w[3], c[3];
+        for (int i = 0; i < 3; i++) {
+            u[i] = q[i] - p[i];
+            w[i] = r[i] - p[i];
+            c[i] = (p[i] + q[i] + r[i]) / 3 - m->x[3 * a + i];
+        }
+        const double n[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
+                             u[0] * w[1] - u[1] * w[0]};
+        const double h = (m->size[v[0]] + m->size[v[1]] + m->size[v[2]]) / 3;
+        const double weight = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / (h * h);
+        for (int i = 0; i < 3; i++)
+            d[i] += weight * c[i];
+        sum += weight;
+    }
+    for (int i = 0; i < 3; i++)
+        d[i] = sum > 0 ? d[i] / sum : 0;
+}
+
+/* A rim node: its two neighbours on the rim, weighted so that both edges are equal parts of the wanted length. */
+static void target_rim(const struct pm_edit *m, ptrdiff_t a, double d[3])
+{
+    double sum = 0;
+    d[0] = d[1] = d[2] = 0;
+    for (int k = 0; k < m->degree[a]; k++) {
+        const int32_t *v = m->tri + 3 * (ptrdiff_t)m->around[a * PM_EDIT_DEGREE + k];
+        for (int i = 0; i < 3; i++) {
+            const ptrdiff_t b = v[i];
+            if (b == a || m->rim[b] != m->rim[a])
+                continue;
+            for (int j = 0; j < 3; j++)
+                d[j] += m->x[3 * b + j] - m->x[3 * a + j];
+            sum += 1;
+        }
+    }
+    for (int i = 0; i < 3; i++)
+        d[i] = sum > 0 ? d[i] / sum : 0;
+}
+
+/* Moves node a tangentially by the parameter step J^+ d, halved until no triangle around it gets bad. */
+static enum pm_status smooth_node(struct pm_edit *m, ptrdiff_t a, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double d[3], r_a[6], step[2], S0[3];
+    const double before = pm_edit_worst(m, a);
+    if (m->rim[a])
+        target_rim(m, a, d);
+    else
+        target(m, a, d);
+    PM_TRY(pm_map_point(m->map, m->phi, m->S + 3 * a, &m->basis, NULL, r_a, NULL, err));
+    double g[3] = {0}, f[2] = {0};
+    for (int i = 0; i < 3; i++) {
+        g[0] += r_a[i] * r_a[i];
+        g[1] += r_a[i] * r_a[3 + i];
+        g[2] += r_a[3 + i] * r_a[3 + i];
+        f[0] += r_a[i] * d[i];
+        f[1] += r_a[3 + i] * d[i];
+    }
+    const double det = g[0] * g[2] - g[1] * g[1];
+    if (!(det > 0) || !(g[0] > 0))
+        goto done;
+    step[0] = m->rim[a] ? f[0] / g[0] : (g[2] * f[0] - g[1] * f[1]) / det;
+    step[1] = m->rim[a] ? 0 : (g[0] * f[1] - g[1] * f[0]) / det;
+    for (int i = 0; i < 3; i++)
+        S0[i] = m->S[3 * a + i];
+    for (int half = 0; half < 4; half++) {
+        const double now_step[2] = {ldexp(step[0], -half), ldexp(step[1], -half)};
+        pm_map_move(m->type, S0, now_step, m->S + 3 * a);
+        if (m->rim[a])
+            m->S[3 * a + 2] = S0[2];
+        PM_TRY(pm_edit_place(m, a, err));
+        const double now = pm_edit_worst(m, a);
+        if (now > 0.3 || now >= before)
+            goto done;
+    }
+    for (int i = 0; i < 3; i++)
+        m->S[3 * a + i] = S0[i];
+    PM_TRY(pm_edit_place(m, a, err));
+done:
+    return status;
+}
+
+enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,
+                         struct pm_patch *p, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_map *map = NULL;
+    struct pm_edit m = {0};
+    *p = (struct pm_patch){0};
+    PM_TRY(pm_map_new(s, &map, err));
+    PM_TRY(pm_edit_init(&m, s, map, surface, err));
+    for (int sweep = 0; sweep < o->sweeps; sweep++) {
+        ptrdiff_t count = 1;
+        PM_TRY(set_sizes(&m, o, err));
+        for (int pass = 0; pass < 8 && count > 0; pass++)
+            PM_TRY(pm_edit_split(&m, &count, err));
+        pm_edit_collapse(&m);
+        pm_edit_flip(&m);
+        for (ptrdiff_t a = 0; a < m.nn; a++)
+            if (m.degree[a] > 0)
+                PM_TRY(smooth_node(&m, a, err));
+    }
+    pm_edit_flip(&m);
+    PM_TRY(pm_edit_finish(&m, p, err));
+done:
+    pm_edit_release(&m);
+    pm_map_free(map);
+    return status;
+}

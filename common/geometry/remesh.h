@@ -1,0 +1,37 @@
+/* Isotropic remeshing of a surface in its parameter space: nodes carry S, their place is r(S), so every
+ * node of the result lies on the surface exactly (Botsch & Kobbelt, A remeshing approach to multiresolution
+ * modeling, 2004). The rims v = 0 and v = 1 of a tube keep v exactly; rim nodes slide along them. */
+#ifndef PM_REMESH_H
+#define PM_REMESH_H
+
+#include "common/geometry/surface_map.h"
+
+struct pm_remesh_opts {
+    double size;     /* wanted edge length [mm] */
+    double size_min; /* its lower bound where the surface is curved [mm] */
+    double crest;    /* edge length <= crest / curvature [1] */
+    double growth;   /* largest change of the wanted length per unit length [1] */
+    int sweeps;
+};
+
+/* A triangulated surface with parameters. */
+struct pm_patch {
+    ptrdiff_t nn, nt;
+    double *S;    /* surface parameter                               (nn x 3) */
+    double *x;    /* r(S)                                            (nn x 3) [mm] */
+    double *size; /* wanted edge length                              (nn)     [mm] */
+    uint8_t *rim; /* B-spline: 1 on v = 0, 2 on v = 1; 0 elsewhere   (nn) */
+    int32_t *tri; /* normal out of the closed surface                (nt x 3) */
+};
+
+/* Size h = min(size, crest / largest principal curvature) >= size_min, limited in growth; edges end up
+ * within about [4/5, 4/3] h. Starts from the triangulation of the control points. PM_INPUT where that
+ * triangulation is unusable (folded in the parameter, not a manifold), PM_NUMERIC where the map fails.
+ * `surface` is its number in messages. Cost: some 20 evaluations per node. */
+enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,
+                         struct pm_patch *p, struct pm_err *err);
+void pm_patch_release(struct pm_patch *p);
+/* > 0 where the parameters a, b, c turn counter-clockwise seen from outside the reference shape. */
+double pm_parameter_orientation(int32_t type, const double a[3], const double b[3], const double c[3]);
+
+#endif

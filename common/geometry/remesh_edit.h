@@ -1,0 +1,43 @@
+/* An editable triangulation on a surface map: splits, collapses and flips of edges. */
+#ifndef PM_REMESH_EDIT_H
+#define PM_REMESH_EDIT_H
+
+#include "common/geometry/remesh.h"
+
+enum { PM_EDIT_DEGREE = 64 }; /* triangles around a node, at most */
+
+struct pm_edit {
+    const struct pm_map *map;
+    const double *phi; /* borrowed */
+    int32_t type;      /* enum pm_surface_type */
+    struct pm_basis basis;
+    ptrdiff_t nn, ncap, nt, tcap;
+    double *S, *x;   /* (ncap x 3) */
+    double *normal;  /* unit surface normal (ncap x 3) */
+    double *size;    /* wanted edge length (ncap) */
+    uint8_t *rim;    /* as in pm_patch (ncap) */
+    int32_t *tri;    /* first id -1: removed (tcap x 3) */
+    int32_t *around; /* triangles around a node (ncap x PM_EDIT_DEGREE) */
+    int32_t *degree; /* their number; 0: removed (ncap) */
+};
+
+/* Takes the control points and their triangulation. */
+enum pm_status pm_edit_init(struct pm_edit *m, const struct pm_surface *s, const struct pm_map *map,
+                            int surface, struct pm_err *err);
+void pm_edit_release(struct pm_edit *m);
+/* Place and normal of node a from its S. */
+enum pm_status pm_edit_place(struct pm_edit *m, ptrdiff_t a, struct pm_err *err);
+/* Splits every edge longer than 4/3 of the wanted length; *count edges. */
+enum pm_status pm_edit_split(struct pm_edit *m, ptrdiff_t *count, struct pm_err *err);
+/* Collapses edges shorter than 4/5 of the wanted length where topology, orientation, normals and the
+ * lengths of the new edges allow; returns their number. */
+ptrdiff_t pm_edit_collapse(struct pm_edit *m);
+/* Delaunay flips in configuration; returns their number. */
+ptrdiff_t pm_edit_flip(struct pm_edit *m);
+/* Smallest over the triangles around a of (unit normal of the facet) . (mean surface normal of its nodes),
+ * -1 where one is folded in the parameter. */
+double pm_edit_worst(const struct pm_edit *m, ptrdiff_t a);
+/* Drops what was removed and hands the arrays over. */
+enum pm_status pm_edit_finish(struct pm_edit *m, struct pm_patch *p, struct pm_err *err);
+
+#endif
