@@ -1,0 +1,47 @@
+#include <string.h>
+
+#include "tools/wsint/wsint.h"
+
+static const struct pm_option OPTIONS[] = {
+    {"measure", 0, "NAME", "2T, 3T, 1R2T, 2R, 3R or 3R3T instead of the case's measure"},
+    {"form", 0, "FORM", "boundary or volume instead of the case's form"},
+    {"sign-from", 0, "WORK.h5", "take the orientation of the first design from this file"},
+    {"record-failure", 0, NULL, "a failed state gives a work file that says so"},
+    {0},
+};
+
+static enum pm_status take(void *opts, const char *name, const char *value, struct pm_err *err)
+{
+    struct wsint_opts *o = opts;
+    (void)err;
+    if (strcmp(name, "measure") == 0)
+        o->measure = value;
+    else if (strcmp(name, "form") == 0)
+        o->form = value;
+    else if (strcmp(name, "sign-from") == 0)
+        o->sign_from = value;
+    else
+        o->record_failure = 1;
+    return PM_OK;
+}
+
+static enum pm_status run(void *opts, const struct pm_common *common, struct pm_err *err)
+{
+    return wsint_run(opts, common, err);
+}
+
+int main(int argc, char **argv)
+{
+    struct wsint_opts opts = {0};
+    const struct pm_tool tool = {
+        .name = "wsint",
+        .operands = "STATE.h5..",
+        .summary = "workspace measure and its derivatives from the equilibria at the Gauss points",
+        .options = OPTIONS,
+        .min_operands = 1,
+        .max_operands = -1,
+        .option = take,
+        .run = run,
+    };
+    return pm_tool_main(&tool, argc, argv, &opts);
+}
