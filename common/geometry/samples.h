@@ -10,8 +10,9 @@ struct pm_samples {
     ptrdiff_t *first; /* samples of surface k are first[k] .. first[k + 1] - 1 (ns + 1) */
     int32_t *surface; /* (n) */
     double *S;        /* parameter (n x 3) */
-    double *area;     /* share of the surface at creation (n) [mm2] */
-    double *scale;    /* parameter length per mm along t1, t2 at creation (n x 2) [1/mm] */
+    double *w;        /* share of the parameter domain (n) [1]: integral of f dA = sum w A f */
+    double *area;     /* share of the surface at creation, w A (n) [mm2] */
+    double *metric;   /* g_11, g_12, g_22 at creation (n x 3) [mm2] */
     ptrdiff_t *ptr;   /* rows of weights (n + 1) */
     int32_t *col;     /* GLOBAL control point (nw) */
     double *c;        /* r    = sum c phi    (nw) */
@@ -32,7 +33,7 @@ void pm_samples_at(const struct pm_samples *samples, ptrdiff_t i, const double *
 void pm_samples_all(const struct pm_samples *samples, const double *phi, double *x, double *normal);
 
 /* Pairs i < j closer than `cutoff`: on distinct surfaces, and on one surface where they are further apart than
- * `geodesic` mm along it (estimate by the parameter scale at creation; INFINITY: none on one surface). */
+ * `geodesic` mm along it (estimate by the metric at creation; INFINITY: none on one surface). */
 struct pm_pair {
     int32_t i, j;
     double distance; /* [mm] */

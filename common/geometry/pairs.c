@@ -1,0 +1,184 @@
+/* Close pairs of samples by a cell grid. */
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/geometry/samples.h"
+
+static const double TWO_PI = 6.283185307179586476925;
+
+struct grid {
+    double lo[3], cell;
+    ptrdiff_t dim[3], *start; /* samples of cell k are list[start[k]..start[k+1]-1], ascending */
+    int32_t *list;
+};
+
+static ptrdiff_t place(const struct grid *g, double x, int axis)
+{
+    return (ptrdiff_t)((x - g->lo[axis]) / g->cell);
+}
+
+static ptrdiff_t cell_of(const struct grid *g, const double *x)
+{
+    return (place(g, x[0], 0) * g->dim[1] + place(g, x[1], 1)) * g->dim[2] + place(g, x[2], 2);
+}
+
+static enum pm_status grid_new(ptrdiff_t n, const double *x, double cutoff, struct grid *g,
+                               struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double hi[3];
+    ptrdiff_t cells;
+
+    memset(g, 0, sizeof *g);
+    g->cell = cutoff;
+    for (int j = 0; j < 3; j++) {
+        g->lo[j] = INFINITY;
+        hi[j] = -INFINITY;
+        for (ptrdiff_t i = 0; i < n; i++) {
+            g->lo[j] = fmin(g->lo[j], x[3 * i + j]);
+            hi[j] = fmax(hi[j], x[3 * i + j]);
+        }
+        if (hi[j] - g->lo[j] > 127 * g->cell) /* bounds the grid whatever the points are */
+            g->cell = (hi[j] - g->lo[j]) / 127;
+    }
+    if (!(g->cell > 0 && isfinite(g->cell)))
+        return pm_fail(err, PM_NUMERIC, "surfaces have no finite extent");
+    for (int j = 0; j < 3; j++)
+        g->dim[j] = n > 0 ? place(g, hi[j], j) + 1 : 1;
+    cells = g->dim[0] * g->dim[1] * g->dim[2];
+    PM_TRY(PM_NEW(g->start, cells + 2, err));
+    PM_TRY(PM_NEW(g->list, n, err));
+    for (ptrdiff_t i = 0; i < n; i++)
+        g->start[cell_of(g, &x[3 * i]) + 2]++;
+    for (ptrdiff_t k = 0; k < cells; k++)
+        g->start[k + 2] += g->start[k + 1];
+    for (ptrdiff_t i = 0; i < n; i++)
+        g->list[g->start[cell_of(g, &x[3 * i]) + 1]++] = (int32_t)i;
+done:
+    return status;
+}
+
+static double length(const double *metric, double a, double b)
+{
+    return sqrt(metric[0] * a * a + 2 * metric[1] * a * b + metric[2] * b * b);
+}
+
+/* Estimate of the distance along the surface, never much too small. */
+static double along(const struct pm_samples *m, ptrdiff_t i, ptrdiff_t j, int tube)
+{
+    const double *S = &m->S[3 * i], *R = &m->S[3 * j], *g = &m->metric[3 * i],
+                 *h = &m->metric[3 * j];
+    double d[3] = {R[0] - S[0], R[1] - S[1], R[2] - S[2]}, chord;
+
+    if (tube) {
+        double turn = atan2(R[1], R[0]) - atan2(S[1], S[0]);
+        turn -= TWO_PI * round(turn / TWO_PI);
+        return fmax(length(g, turn, d[2]), length(h, turn, d[2]));
+    }
+    chord = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    return chord * sqrt(sqrt(fmax(g[0] * g[2] - g[1] * g[1], h[0] * h[2] - h[1] * h[1])));
+}
+
+struct found {
+    struct pm_pair *pair;
+    ptrdiff_t n, capacity;
+};
+
+static enum pm_status push(struct found *f, ptrdiff_t i, ptrdiff_t j, double distance,
+                           struct pm_err *err)
+{
+    if (f->n == f->capacity) {
+        ptrdiff_t more = 2 * f->capacity + 1024;
+        struct pm_pair *p = pm_realloc(f->pair, more, sizeof *p, err);
+        if (p == NULL)
+            return PM_SYSTEM;
+        f->pair = p;
+        f->capacity = more;
+    }
+    f->pair[f->n++] = (struct pm_pair){(int32_t)i, (int32_t)j, distance};
+    return PM_OK;
+}
+
+struct search {
+    const struct pm_samples *m;
+    const double *x;
+    double cutoff, geodesic;
+    ptrdiff_t tube_end; /* samples below are of the exterior */
+};
+
+static int close_pair(const struct search *q, ptrdiff_t i, ptrdiff_t j, double *distance)
+{
+    const double *a = &q->x[3 * i], *b = &q->x[3 * j];
+    double d2 = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                (a[2] - b[2]) * (a[2] - b[2]);
+
+    if (!(d2 < q->cutoff * q->cutoff))
+        return 0;
+    *distance = sqrt(d2);
+    if (q->m->surface[i] != q->m->surface[j])
+        return 1;
+    return isfinite(q->geodesic) && along(q->m, i, j, i < q->tube_end) > q->geodesic;
+}
+
+static enum pm_status search_cell(const struct search *q, const struct grid *g, ptrdiff_t i,
+                                  ptrdiff_t cell, struct found *f, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double distance;
+
+    for (ptrdiff_t k = g->start[cell]; status == PM_OK && k < g->start[cell + 1]; k++) {
+        ptrdiff_t j = g->list[k];
+        if (j > i && close_pair(q, i, j, &distance))
+            status = push(f, i, j, distance, err);
+    }
+    return status;
+}
+
+static int by_j(const void *a, const void *b)
+{
+    const struct pm_pair *p = a, *q = b;
+    return (p->j > q->j) - (p->j < q->j);
+}
+
+static enum pm_status search_around(const struct search *q, const struct grid *g, ptrdiff_t i,
+                                    struct found *f, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    ptrdiff_t at[3], first = f->n;
+
+    for (int j = 0; j < 3; j++)
+        at[j] = place(g, q->x[3 * i + j], j);
+    for (ptrdiff_t a = at[0] > 0 ? at[0] - 1 : 0; a <= at[0] + 1 && a < g->dim[0]; a++)
+        for (ptrdiff_t b = at[1] > 0 ? at[1] - 1 : 0; b <= at[1] + 1 && b < g->dim[1]; b++)
+            for (ptrdiff_t c = at[2] > 0 ? at[2] - 1 : 0; c <= at[2] + 1 && c < g->dim[2]; c++)
+                PM_TRY(search_cell(q, g, i, (a * g->dim[1] + b) * g->dim[2] + c, f, err));
+    if (f->n > first)
+        qsort(f->pair + first, (size_t)(f->n - first), sizeof *f->pair, by_j);
+done:
+    return status;
+}
+
+enum pm_status pm_samples_pairs(const struct pm_samples *samples, const double *x, double cutoff,
+                                double geodesic, struct pm_pair **pairs, ptrdiff_t *n,
+                                struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct grid g = {0};
+    struct found f = {0};
+    struct search q = {samples, x, cutoff, geodesic, samples->first[1]};
+
+    *pairs = NULL;
+    PM_TRY(grid_new(samples->n, x, cutoff, &g, err));
+    for (ptrdiff_t i = 0; i < samples->n; i++)
+        PM_TRY(search_around(&q, &g, i, &f, err));
+    *pairs = f.pair;
+    *n = f.n;
+    f.pair = NULL;
+done:
+    pm_free(f.pair);
+    pm_free(g.start);
+    pm_free(g.list);
+    return status;
+}
