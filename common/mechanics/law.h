@@ -1,0 +1,31 @@
+/* Hyperelastic laws through invariants [theory 1]: W = W_iso(I1, I2, J) + U(J), U = kappa/2 (J - 1)^2, paper (87).
+ * All tensors 3x3 row major, [MPa]. */
+#ifndef PM_LAW_H
+#define PM_LAW_H
+
+#include "common/base/status.h"
+
+enum pm_law_kind { PM_LAW_NEO_HOOKEAN, PM_LAW_MOONEY_RIVLIN, PM_LAW_YEOH };
+
+struct pm_law {
+    enum pm_law_kind kind;
+    double c[3];  /* neo-Hookean {mu}; Mooney-Rivlin {c10, c01}; Yeoh {c1, c2, c3} [MPa] */
+    double mu;    /* small-strain shear modulus [MPa] */
+    double kappa; /* bulk modulus               [MPa] */
+};
+
+/* By name: neo-hookean, mooney-rivlin, yeoh; c as above. */
+enum pm_status pm_law_set(struct pm_law *law, const char *name, const double *c, double kappa,
+                          struct pm_err *err);
+
+/* Isochoric part at F (det F > 0): returns W_iso; P_iso = dW_iso/dF (NULL: not wanted). */
+double pm_law_stress(const struct pm_law *law, const double F[9], double P[9]);
+/* A_iso = d2W_iso/dF2 as a symmetric (9 x 9) matrix. */
+void pm_law_tangent(const struct pm_law *law, const double F[9], double A[81]);
+/* A_iso : G */
+void pm_law_apply(const struct pm_law *law, const double F[9], const double G[9], double AG[9]);
+/* T_iso(G, H) = d/dF (G : A_iso : H) */
+void pm_law_third(const struct pm_law *law, const double F[9], const double G[9], const double H[9],
+                  double T[9]);
+
+#endif

@@ -1,0 +1,152 @@
+/* Assembly of the tangent of the model into its pattern, and the factor. */
+#include <math.h>
+#include <string.h>
+
+#include "common/mechanics/cavity.h"
+#include "common/mechanics/model.h"
+#include "common/mechanics/tensor.h"
+
+/* B_a = [I, R_1 r_a, R_2 r_a, R_3 r_a] (3 x 6): motion of a tip node by the end-effector. */
+static void tip_map(const struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a, double B[18])
+{
+    memset(B, 0, 18 * sizeof *B);
+    for (int k = 0; k < 3; k++) {
+        double y[3];
+        B[6 * k + k] = 1.0;
+        pm_mul3(rot->Ri[k], m->arm + 3 * a, y);
+        for (int i = 0; i < 3; i++)
+            B[6 * i + 3 + k] = y[i];
+    }
+}
+
+static double *tail_entry(struct pm_model *m, ptrdiff_t row, ptrdiff_t column_of_tail)
+{
+    /* lower triangle of the last 6 columns, row >= column */
+    ptrdiff_t c = m->nq - 6 + column_of_tail;
+    return m->value + m->pattern.ptr[c] + (row - column_of_tail);
+}
+
+/* Adds the 3x3 block k of nodes (a, b), row-major with stride; only the half that the lower triangle stores. */
+static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a, ptrdiff_t b, const double *k,
+                      ptrdiff_t stride)
+{
+    const struct pm_pattern *p = &m->pattern;
+    ptrdiff_t i = p->eq[a], j = p->eq[b];
+    if (i >= 0 && j >= 0) {
+        if (i >= j) {
+            ptrdiff_t base = pm_pattern_block(p, i, j, 0), height = p->ptr[3 * j + 1] - p->ptr[3 * j];
+            for (int c = 0; c < 3; c++)
+                for (int d = 0; d < 3; d++)
+                    m->value[base + c * height + d] += k[d * stride + c];
+        }
+        return;
+    }
+    if (m->kind[a] != PM_NODE_TIP || m->kind[b] == PM_NODE_CLAMPED)
+        return;
+    double Ba[18], BK[18]; /* BK = B_a^T k (6 x 3) */
+    tip_map(m, rot, a, Ba);
+    for (int t = 0; t < 6; t++)
+        for (int c = 0; c < 3; c++)
+            BK[3 * t + c] = Ba[t] * k[c] + Ba[6 + t] * k[stride + c] + Ba[12 + t] * k[2 * stride + c];
+    if (j >= 0) {
+        for (int c = 0; c < 3; c++)
+            for (int t = 0; t < 6; t++)
+                m->value[p->ptr[3 * j + c + 1] - 6 + t] += BK[3 * t + c];
+        return;
+    }
+    double Bb[18];
+    tip_map(m, rot, b, Bb);
+    for (int s = 0; s < 6; s++)
+        for (int t = s; t < 6; t++)
+            *tail_entry(m, t, s) += BK[3 * t] * Bb[s] + BK[3 * t + 1] * Bb[6 + s] + BK[3 * t + 2] * Bb[12 + s];
+}
+
+static void add_elements(struct pm_model *m, const struct pm_rotation *rot, const struct pm_config *c,
+                         const double *pressure)
+{
+    const struct pm_mesh *mesh = m->mesh;
+    double K[900];
+    for (ptrdiff_t e = 0; e < mesh->ne; e++) {
+        struct pm_element el = pm_model_element(m, e);
+        const int32_t *t = mesh->tet + 10 * e;
+        double u[30];
+        pm_gather(t, 10, c->u, u);
+        pm_element_tangent(&el, u, pressure != NULL ? pressure + 4 * e : NULL, K);
+        for (int a = 0; a < 10; a++)
+            for (int b = 0; b < 10; b++)
+                add_block(m, rot, t[a], t[b], K + 30 * (3 * a) + 3 * b, 30);
+    }
+}
+
+/* - p_r H with H_ab = skew(s_ab); chamber faces point into the cavity, hence + p_r. */
+static void add_pressure(struct pm_model *m, const struct pm_rotation *rot, const struct pm_config *c, const double *p)
+{
+    const struct pm_mesh *mesh = m->mesh;
+    for (ptrdiff_t f = 0; f < mesh->nf; f++) {
+        const int32_t *t = mesh->tri + 6 * f;
+        double x[18], s[108];
+        if (mesh->tri_tag[f] < 1 || p[mesh->tri_tag[f] - 1] == 0.0)
+            continue;
+        double pr = p[mesh->tri_tag[f] - 1];
+        for (int a = 0; a < 6; a++)
+            for (int i = 0; i < 3; i++)
+                x[3 * a + i] = mesh->x[3 * (ptrdiff_t)t[a] + i] + c->u[3 * (ptrdiff_t)t[a] + i] - m->origin[i];
+        pm_cavity_hessian(x, s);
+        for (int a = 0; a < 6; a++)
+            for (int b = 0; b < 6; b++) {
+                const double *v = s + 3 * (6 * a + b);
+                const double k[9] = {0, -pr * v[2], pr * v[1], pr * v[2], 0, -pr * v[0], -pr * v[1], pr * v[0], 0};
+                add_block(m, rot, t[a], t[b], k, 3);
+            }
+    }
+}
+
+/* sum_tip f_a . R_ij r_a on the rotation rows. */
+static void add_tip_forces(struct pm_model *m, const struct pm_rotation *rot, const double *f)
+{
+    for (ptrdiff_t a = 0; a < m->mesh->nn; a++)
+        for (int j = 0; j < 3 && m->kind[a] == PM_NODE_TIP; j++)
+            for (int i = j; i < 3; i++) {
+                double y[3];
+                pm_mul3(rot->Rij[i][j], m->arm + 3 * a, y);
+                *tail_entry(m, 3 + i, 3 + j) += pm_dot3(f + 3 * a, y);
+            }
+}
+
+/* Fixed equations become unity, scaled as the largest diagonal entry. */
+static void fix_equations(struct pm_model *m)
+{
+    const struct pm_pattern *p = &m->pattern;
+    double scale = 0.0;
+    for (ptrdiff_t c = 0; c < m->nq; c++)
+        for (ptrdiff_t k = p->ptr[c]; k < p->ptr[c + 1]; k++)
+            if (p->row[k] == c)
+                scale = fmax(scale, fabs(m->value[k]));
+    for (ptrdiff_t c = 0; c < m->nq; c++)
+        for (ptrdiff_t k = p->ptr[c]; k < p->ptr[c + 1]; k++)
+            if (m->fixed[c] || m->fixed[p->row[k]])
+                m->value[k] = p->row[k] == c ? scale : 0.0;
+}
+
+enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p, const double *f,
+                               const double *pressure, int *definite, struct pm_err *err)
+{
+    struct pm_rotation rot;
+    pm_rotation_at(c->U + 3, 0, &rot);
+    memset(m->value, 0, (size_t)m->pattern.ptr[m->nq] * sizeof *m->value);
+    add_elements(m, &rot, c, pressure);
+    add_pressure(m, &rot, c, p);
+    if (m->tail > 0)
+        add_tip_forces(m, &rot, f);
+    fix_equations(m);
+    m->factorisations++;
+    return pm_cholesky_factor(m->factor, m->value, definite, NULL, err);
+}
+
+enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, struct pm_err *err)
+{
+    for (ptrdiff_t k = 0; k < m->nq * nrhs; k++)
+        if (m->fixed[k % m->nq])
+            q[k] = 0.0;
+    return pm_cholesky_solve(m->factor, q, nrhs, err);
+}
