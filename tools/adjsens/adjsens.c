@@ -1,0 +1,159 @@
+#include "tools/adjsens/adjsens.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/base/log.h"
+#include "common/base/memory.h"
+#include "common/files/sens.h"
+#include "common/mechanics/adjoint.h"
+
+/* The work file's row of the state's load. */
+static enum pm_status find_row(const char *path, struct adjsens_point *pt, struct pm_err *err)
+{
+    const struct pm_work *w = &pt->work;
+    const struct pm_state *s = &pt->state;
+    for (pt->row = 0; pt->row < w->ng; pt->row++)
+        if (w->form == s->form && w->load[pt->row] == s->load)
+            break;
+    if (pt->row == w->ng)
+        return pm_fail(err, PM_INPUT, "cannot use '%s': it has no row for load %lld of the state's form", path,
+                       (long long)s->load);
+    for (int l = 0; l < 6; l++)
+        if (w->nc != s->mesh.nc || w->U[6 * pt->row + l] != s->U[l])
+            return pm_fail(err, PM_INPUT, "cannot use '%s': its row for load %lld belongs to another state", path,
+                           (long long)s->load);
+    return PM_OK;
+}
+
+/* Factor of the exact tangent at the state, forces, Jacobian. */
+static enum pm_status restore(struct adjsens_point *pt, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_state *s = &pt->state;
+    ptrdiff_t nc = s->mesh.nc, nn = s->mesh.nn;
+    double low;
+    int definite;
+    PM_TRY(pm_model_new(&s->mesh, s->element, &pt->m, err));
+    PM_TRY(pm_config_new(pt->m, &pt->c, err));
+    memcpy(pt->c.u, s->u, 3 * (size_t)nn * sizeof *s->u);
+    memcpy(pt->c.U, s->U, sizeof s->U);
+    PM_TRY(PM_NEW(pt->p, nc, err));
+    PM_TRY(PM_NEW(pt->f, 3 * nn, err));
+    PM_TRY(PM_NEW(pt->Jq, nc * pt->m->nq, err));
+    PM_TRY(PM_NEW(pt->J, 6 * nc, err));
+    for (ptrdiff_t r = 0; r < nc; r++)
+        pt->p[r] = s->pressure[r] * pt->m->law.mu;
+    pm_model_potential(pt->m, &pt->c, pt->p, pt->f, NULL, &low);
+    PM_TRY(pm_model_factor(pt->m, &pt->c, pt->p, pt->f, NULL, &definite, err));
+    if (!definite) {
+        status = pm_fail(err, PM_NUMERIC, "the tangent at the state is not positive definite: no gradient there");
+        goto done;
+    }
+    PM_TRY(pm_jacobian(pt->m, &pt->c, pt->m->law.mu, pt->Jq, pt->J, err));
+done:
+    return status;
+}
+
+/* Relative defects of D under translation, scaling and rotation of the body [theory 4.3]: exact identities. */
+static void identities(const struct adjsens_point *pt, const double *D, const double D_ref[3], struct pm_sens *out)
+{
+    const struct pm_mesh *mesh = &pt->state.mesh;
+    ptrdiff_t nc = mesh->nc;
+    const double *a = pt->work.dw_dU + 6 * pt->row, *b = pt->work.dw_dJ + 6 * nc * pt->row, *U = pt->state.U;
+    double sum[3] = {D_ref[0], D_ref[1], D_ref[2]}, X[3], turn[3] = {0}, want[3] = {0}, scale = 0.0, size[3] = {0}, Euler = 0.0;
+    for (ptrdiff_t n = 0; n <= mesh->nn; n++) {
+        const double *x = n < mesh->nn ? mesh->x + 3 * n : mesh->reference_point, *d = n < mesh->nn ? D + 3 * n : D_ref;
+        memcpy(X, x, sizeof X);
+        for (int i = 0; i < 3; i++) {
+            int j = (i + 1) % 3, k = (i + 2) % 3;
+            sum[i] += n < mesh->nn ? d[i] : 0.0;
+            scale += X[i] * d[i];
+            turn[i] += X[j] * d[k] - X[k] * d[j]; /* D.(e_i x X) */
+            size[0] += fabs(d[i]);
+            size[1] += fabs(X[i] * d[i]);
+            size[2] += fabs(X[j] * d[k]) + fabs(X[k] * d[j]);
+        }
+    }
+    for (ptrdiff_t c = -1; c < nc; c++) /* U, then the columns of J */
+        for (int l = 0; l < 6; l += 3)
+            for (int i = 0; i < 3; i++) {
+                int j = (i + 1) % 3, k = (i + 2) % 3;
+                const double g[3] = {c < 0 ? a[l] : b[l * nc + c], c < 0 ? a[l + 1] : b[(l + 1) * nc + c],
+                                     c < 0 ? a[l + 2] : b[(l + 2) * nc + c]};
+                const double v[3] = {c < 0 ? U[l] : pt->J[l * nc + c], c < 0 ? U[l + 1] : pt->J[(l + 1) * nc + c],
+                                     c < 0 ? U[l + 2] : pt->J[(l + 2) * nc + c]};
+                want[i] += v[j] * g[k] - v[k] * g[j];
+                Euler += l == 0 ? g[i] * v[i] : 0.0;
+            }
+    out->identity_translation = fmax(fabs(sum[0]), fmax(fabs(sum[1]), fabs(sum[2]))) / size[0];
+    out->identity_scaling = fabs(scale - Euler) / size[1];
+    out->identity_rotation = fmax(fabs(turn[0] - want[0]), fmax(fabs(turn[1] - want[1]), fabs(turn[2] - want[2]))) / size[2];
+}
+
+static enum pm_status differentiate(struct adjsens_point *pt, struct pm_sens *out, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_mesh *mesh = &pt->state.mesh;
+    ptrdiff_t nc = mesh->nc;
+    double *D = NULL, D_ref[3];
+    PM_TRY(PM_NEW(D, 3 * mesh->nn, err));
+    PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
+    PM_TRY(pm_adjoint(pt->m, &pt->c, pt->p, pt->f, pt->m->law.mu, pt->Jq, pt->work.dw_dU + 6 * pt->row,
+                      pt->work.dw_dJ + 6 * nc * pt->row, D, D_ref, err));
+    identities(pt, D, D_ref, out);
+    pm_log(1, "identities: translation %.1e, scaling %.1e, rotation %.1e", out->identity_translation,
+           out->identity_scaling, out->identity_rotation);
+    PM_TRY(pm_extension_new(mesh, &pt->extension, err));
+    PM_TRY(pm_extension_transpose(pt->extension, D, err));
+    pm_mesh_pull_back(mesh, D, out->gradient);
+done:
+    pm_free(D);
+    return status;
+}
+
+static void release(struct adjsens_point *pt)
+{
+    pm_extension_free(pt->extension);
+    pm_model_free(pt->m);
+    pm_config_release(&pt->c);
+    pm_free(pt->p);
+    pm_free(pt->f);
+    pm_free(pt->Jq);
+    pm_free(pt->J);
+    pm_state_release(&pt->state);
+    pm_work_release(&pt->work);
+}
+
+enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common *common, struct pm_err *err)
+{
+    enum pm_status status;
+    struct adjsens_point pt = {0};
+    struct pm_sens sens = {0};
+    struct pm_h5 *out = NULL;
+    PM_TRY(pm_state_load(common->operands[0], 0, &pt.state, err));
+    PM_TRY(pm_work_load(common->operands[1], 0, &pt.work, err));
+    if (pt.state.mesh.N == 0) {
+        status = pm_fail(err, PM_INPUT, "cannot use '%s': its mesh has no control points, expected one made from surfaces",
+                         common->operands[0]);
+        goto done;
+    }
+    PM_TRY(find_row(common->operands[1], &pt, err));
+    PM_TRY(restore(&pt, err));
+    PM_TRY(differentiate(&pt, &sens, err));
+    if (o->check)
+        PM_TRY(adjsens_check(o, &pt, sens.gradient, err));
+    sens.form = pt.state.form;
+    sens.load = pt.state.load;
+    sens.N = pt.state.mesh.N;
+    PM_TRY(pm_case_copy(&pt.state.mesh.pcase, &sens.pcase, err));
+    PM_TRY(pm_h5_create(common->output, "sens", common, NULL, &out, err));
+    PM_TRY(pm_sens_write(out, &sens, err));
+    status = pm_h5_commit(out, err);
+    out = NULL;
+done:
+    pm_h5_close(out);
+    pm_sens_release(&sens);
+    release(&pt);
+    return status;
+}

@@ -1,0 +1,175 @@
+/* adjsens --check: central differences of surface -> morph -> equilibrium -> measure. */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/actuation/measure.h"
+#include "common/base/memory.h"
+#include "common/mechanics/adjoint.h"
+#include "common/mechanics/equilibrium.h"
+#include "tools/adjsens/adjsens.h"
+
+static const double wanted = 1e-5; /* largest relative error that passes */
+
+/* What one difference needs: the state's mesh with other node positions. */
+struct probe {
+    struct adjsens_point *pt;
+    struct pm_load load;
+    double sigma_weight; /* of the point's contribution */
+    double *x0, *dx;     /* node positions at the design and their rate along the direction (nn x 3) */
+};
+
+/* Contribution of the point at x0 + s dx: solved from the state as guess. */
+static enum pm_status evaluate(const struct probe *pr, double s, double *w, struct pm_err *err)
+{
+    enum pm_status status;
+    struct adjsens_point *pt = pr->pt;
+    struct pm_mesh *mesh = &pt->state.mesh;
+    ptrdiff_t nc = mesh->nc;
+    struct pm_model *m = NULL;
+    struct pm_config c = {0};
+    struct pm_solve_report report;
+    struct pm_solve_options o = pm_solve_default;
+    double *f = NULL, *V = NULL, *Jq = NULL, *J = NULL, *dJ = NULL, dU[6];
+    o.tolerance = 1e-12;
+    for (ptrdiff_t k = 0; k < 3 * mesh->nn; k++)
+        mesh->x[k] = pr->x0[k] + s * pr->dx[k];
+    PM_TRY(pm_model_new(mesh, pt->state.element, &m, err));
+    PM_TRY(pm_config_new(m, &c, err));
+    pm_config_copy(m, &pt->c, &c);
+    PM_TRY(PM_NEW(f, 3 * mesh->nn, err));
+    PM_TRY(PM_NEW(V, nc, err));
+    PM_TRY(PM_NEW(Jq, nc * m->nq, err));
+    PM_TRY(PM_NEW(J, 6 * nc, err));
+    PM_TRY(PM_NEW(dJ, 6 * nc, err));
+    PM_TRY(pm_equilibrium(m, pt->p, &o, pt->p, &c, V, f, &report, err));
+    PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, J, err));
+    PM_TRY(pm_measure_point(&mesh->pcase, (enum pm_form)pt->state.form, &pr->load, c.U, J, w, dU, dJ, err));
+    *w *= pr->sigma_weight;
+done:
+    memcpy(mesh->x, pr->x0, 3 * (size_t)mesh->nn * sizeof *mesh->x);
+    pm_model_free(m);
+    pm_config_release(&c);
+    pm_free(f);
+    pm_free(V);
+    pm_free(Jq);
+    pm_free(J);
+    pm_free(dJ);
+    return status;
+}
+
+/* Random direction: which = 1 chambers, 2 exterior, 3 both; largest displacement 1. Control points of the fixed
+ * rims do not move. Uniform numbers by a 64-bit congruential generator (Knuth's MMIX constants). */
+static void random_direction(const struct pm_mesh *mesh, const uint8_t *part, int which, uint64_t *seed, double *d)
+{
+    double most = 0.0;
+    for (ptrdiff_t k = 0; k < mesh->N; k++) {
+        double size = 0.0;
+        for (int i = 0; i < 3; i++) {
+            *seed = *seed * 6364136223846793005u + 1442695040888963407u;
+            d[3 * k + i] = (part[k] & which) != 0 ? 2.0 * (double)(*seed >> 11) / 9007199254740992.0 - 1.0 : 0.0;
+            size += d[3 * k + i] * d[3 * k + i];
+        }
+        most = fmax(most, sqrt(size));
+    }
+    for (ptrdiff_t k = 0; k < 3 * mesh->N && most > 0.0; k++)
+        d[k] /= most;
+}
+
+/* part[m]: 1 chamber control point, 2 exterior, 0 moves a node of the base or tip plane (a rim: fixed). */
+static void classify(const struct pm_mesh *mesh, uint8_t *part)
+{
+    for (ptrdiff_t a = 0; a < mesh->nn; a++)
+        for (int64_t k = mesh->wptr[a]; k < mesh->wptr[a + 1]; k++)
+            if (mesh->surface[a] >= 0)
+                part[mesh->wcol[k]] = mesh->surface[a] > 0 ? 1 : 2;
+    for (ptrdiff_t f = 0; f < mesh->nf; f++)
+        for (int a = 0; a < 6 && mesh->tri_tag[f] < 0; a++) {
+            int32_t node = mesh->tri[6 * f + a];
+            for (int64_t k = mesh->wptr[node]; k < mesh->wptr[node + 1]; k++)
+                part[mesh->wcol[k]] = 0;
+        }
+}
+
+/* Rate of the node positions along a control point direction: W d on surface nodes, extended. */
+static enum pm_status node_rates(struct adjsens_point *pt, const double *d, double *dx, struct pm_err *err)
+{
+    const struct pm_mesh *mesh = &pt->state.mesh;
+    memset(dx, 0, 3 * (size_t)mesh->nn * sizeof *dx);
+    for (ptrdiff_t a = 0; a < mesh->nn; a++)
+        for (int64_t k = mesh->wptr[a]; k < mesh->wptr[a + 1]; k++)
+            for (int i = 0; i < 3; i++)
+                dx[3 * a + i] += mesh->wval[k] * d[3 * (ptrdiff_t)mesh->wcol[k] + i];
+    return pm_extension_apply(pt->extension, dx, err);
+}
+
+/* Sweep of step sizes in one direction: prints each and the plateau; *best is the smallest relative error. */
+static enum pm_status sweep(const struct probe *pr, const char *label, double exact, double radius, double *best,
+                            struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    *best = INFINITY;
+    for (int k = 0; k < 3; k++, radius /= 4) {
+        double up, down;
+        PM_TRY(evaluate(pr, radius, &up, err));
+        PM_TRY(evaluate(pr, -radius, &down, err));
+        double fd = (up - down) / (2 * radius), e = fabs(fd - exact) / fabs(exact);
+        printf("%-9s step %.2e  adjoint %+.10e  differences %+.10e  relative error %.2e\n", label, radius, exact, fd, e);
+        *best = fmin(*best, e);
+    }
+    printf("%-9s best relative error %.2e (wanted %.0e)\n", label, *best, wanted);
+done:
+    return status;
+}
+
+static enum pm_status prepare(struct adjsens_point *pt, struct probe *pr, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_load *set = NULL;
+    ptrdiff_t n;
+    PM_TRY(pm_load_set(&pt->state.mesh.pcase, (enum pm_form)pt->state.form, &set, &n, err));
+    if (pt->state.load >= n)
+        status = pm_fail(err, PM_INPUT, "the state's load %lld is not in its Gauss set", (long long)pt->state.load);
+    else
+        pr->load = set[pt->state.load];
+    pr->sigma_weight = pt->work.orientation * pr->load.weight;
+    PM_TRY(PM_NEW(pr->x0, 3 * pt->state.mesh.nn, err));
+    PM_TRY(PM_NEW(pr->dx, 3 * pt->state.mesh.nn, err));
+    memcpy(pr->x0, pt->state.mesh.x, 3 * (size_t)pt->state.mesh.nn * sizeof *pr->x0);
+done:
+    pm_free(set);
+    return status;
+}
+
+enum pm_status adjsens_check(const struct adjsens_opts *o, struct adjsens_point *pt, const double *g, struct pm_err *err)
+{
+    static const char *const label[] = {NULL, "chambers", "exterior", "both"};
+    enum pm_status status;
+    const struct pm_mesh *mesh = &pt->state.mesh;
+    struct probe pr = {.pt = pt};
+    uint8_t *part = NULL;
+    double *d = NULL, worst = 0.0;
+    uint64_t seed = (uint64_t)o->seed;
+    PM_TRY(PM_NEW(part, mesh->N, err));
+    PM_TRY(PM_NEW(d, 3 * mesh->N, err));
+    PM_TRY(prepare(pt, &pr, err));
+    classify(mesh, part);
+    for (int which = 1; which <= 3; which++) {
+        double exact = 0.0, best;
+        random_direction(mesh, part, which, &seed, d);
+        for (ptrdiff_t k = 0; k < 3 * mesh->N; k++)
+            exact += g[k] * d[k];
+        PM_TRY(node_rates(pt, d, pr.dx, err));
+        PM_TRY(sweep(&pr, label[which], exact, o->radius, &best, err));
+        worst = fmax(worst, best);
+    }
+    if (!(worst <= wanted))
+        status = pm_fail(err, PM_NUMERIC, "gradient differs from differences by %.2e, expected at most %.0e", worst, wanted);
+done:
+    pm_free(part);
+    pm_free(d);
+    pm_free(pr.x0);
+    pm_free(pr.dx);
+    return status;
+}

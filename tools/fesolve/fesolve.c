@@ -1,0 +1,175 @@
+#include "tools/fesolve/fesolve.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "common/actuation/loads.h"
+#include "common/base/log.h"
+#include "common/base/memory.h"
+#include "common/files/state.h"
+#include "common/mechanics/adjoint.h"
+#include "common/mechanics/equilibrium.h"
+
+/* Pressures of the run: a point of a Gauss set, or those given. */
+static enum pm_status choose_load(const struct fesolve_opts *o, struct pm_state *s, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_case *c = &s->mesh.pcase;
+    struct pm_load *set = NULL;
+    ptrdiff_t n = 0;
+    s->form = o->have_form ? o->form : c->form;
+    s->load = -1;
+    PM_TRY(PM_NEW(s->pressure, s->mesh.nc, err));
+    if (o->have_load) {
+        PM_TRY(pm_load_set(c, (enum pm_form)s->form, &set, &n, err));
+        if (o->load < 0 || o->load >= n)
+            status = pm_fail(err, PM_USAGE, "option --load: found %ld, the %s form of this case has points 0 to %td",
+                             o->load, s->form == PM_FORM_VOLUME ? "volume" : "boundary", n - 1);
+        else
+            memcpy(s->pressure, set[o->load].p, (size_t)s->mesh.nc * sizeof *s->pressure);
+        s->load = o->load;
+    } else if (o->npressure != s->mesh.nc) {
+        status = pm_fail(err, PM_USAGE, "option --pressure: found %d values, the mesh has %td chambers", o->npressure,
+                         s->mesh.nc);
+    } else {
+        memcpy(s->pressure, o->pressure, (size_t)s->mesh.nc * sizeof *s->pressure);
+    }
+done:
+    pm_free(set);
+    return status;
+}
+
+static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
+{
+    return a->nn == b->nn && a->ne == b->ne && a->nc == b->nc &&
+           memcmp(a->tet, b->tet, 10 * (size_t)a->ne * sizeof *a->tet) == 0;
+}
+
+/* Takes the displacements of the guess; *at (nc) its pressures, or NULL where it cannot serve. */
+static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c, double *pressure,
+                                 const double **at, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_state g = {0};
+    *at = NULL;
+    PM_TRY(pm_state_load(path, 1, &g, err));
+    if (g.failure[0] != '\0') {
+        pm_warn("guess '%s' records a failure: starting from the undeformed state", path);
+    } else if (!same_connectivity(&g.mesh, mesh)) {
+        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed state", path);
+    } else {
+        memcpy(c->u, g.u, 3 * (size_t)mesh->nn * sizeof *c->u);
+        memcpy(c->U, g.U, sizeof c->U);
+        for (ptrdiff_t r = 0; r < mesh->nc; r++)
+            pressure[r] = g.pressure[r] * mesh->pcase.mu;
+        *at = pressure;
+    }
+done:
+    pm_state_release(&g);
+    return status;
+}
+
+/* Force and moment about the reference point that the clamp exerts on the body. */
+static void reaction(const struct pm_model *m, const struct pm_config *c, const double *f, double out[6])
+{
+    memset(out, 0, 6 * sizeof *out);
+    for (ptrdiff_t a = 0; a < m->mesh->nn; a++) {
+        const double *fa = f + 3 * a;
+        double x[3];
+        if (m->kind[a] != PM_NODE_CLAMPED)
+            continue;
+        for (int i = 0; i < 3; i++) {
+            x[i] = m->arm[3 * a + i] + c->u[3 * a + i];
+            out[i] += fa[i];
+        }
+        for (int i = 0; i < 3; i++)
+            out[3 + i] += x[(i + 1) % 3] * fa[(i + 2) % 3] - x[(i + 2) % 3] * fa[(i + 1) % 3];
+    }
+}
+
+static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, struct pm_err *err)
+{
+    enum pm_status status;
+    ptrdiff_t nc = s->mesh.nc, nn = s->mesh.nn;
+    struct pm_model *m = NULL;
+    struct pm_config c = {0};
+    struct pm_solve_report r;
+    struct pm_solve_options options = pm_solve_default;
+    const double *at = NULL;
+    double *p = NULL, *f = NULL, *Jq = NULL, low;
+    options.tolerance = o->tolerance;
+    PM_TRY(pm_model_new(&s->mesh, o->element, &m, err));
+    PM_TRY(pm_config_new(m, &c, err));
+    PM_TRY(PM_NEW(p, 2 * nc, err));
+    PM_TRY(PM_NEW(f, 3 * nn, err));
+    PM_TRY(PM_NEW(Jq, nc * m->nq, err));
+    PM_TRY(PM_NEW(s->J, 6 * nc, err));
+    PM_TRY(PM_NEW(s->volume, nc, err));
+    PM_TRY(PM_NEW(s->volume0, nc, err));
+    pm_model_potential(m, &c, p, NULL, s->volume0, &low);
+    for (ptrdiff_t i = 0; i < nc; i++)
+        p[i] = s->pressure[i] * m->law.mu;
+    if (o->guess != NULL)
+        PM_TRY(load_guess(o->guess, &s->mesh, &c, p + nc, &at, err));
+    PM_TRY(pm_equilibrium(m, p, &options, at, &c, s->volume, f, &r, err));
+    PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
+    reaction(m, &c, f, s->reaction);
+    memcpy(s->U, c.U, sizeof s->U);
+    s->u = c.u;
+    c.u = NULL;
+    s->energy = r.energy;
+    s->residual = r.residual;
+    s->min_det_F = r.min_det_F;
+    s->load_steps = r.load_steps;
+    s->newton_steps = r.newton_steps;
+    s->factorisations = r.factorisations;
+    s->backoffs = r.backoffs;
+    s->stable = 1;
+    s->warm = r.warm;
+    pm_log(1, "%td unknowns: %ld load steps, %ld Newton steps, %ld factorisations, %ld back-offs%s, residual %.1e",
+           m->nq, r.load_steps, r.newton_steps, r.factorisations, r.backoffs, r.warm ? ", warm" : "", r.residual);
+    pm_log(1, "U = %.6f %.6f %.6f mm, %.6f %.6f %.6f rad; smallest det F %.3f", s->U[0], s->U[1], s->U[2], s->U[3],
+           s->U[4], s->U[5], s->min_det_F);
+done:
+    pm_config_release(&c);
+    pm_model_free(m);
+    pm_free(p);
+    pm_free(f);
+    pm_free(Jq);
+    return status;
+}
+
+enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common *common, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_state s = {0};
+    struct pm_h5 *out = NULL;
+    const char *const extra[] = {o->guess, NULL};
+    if (o->have_load == (o->npressure > 0))
+        return pm_fail(err, PM_USAGE, "expected exactly one of --load and --pressure");
+    PM_TRY(pm_mesh_load(common->operands[0], o->record_failure, &s.mesh, err));
+    snprintf(s.element, sizeof s.element, "%s", o->element);
+    if (s.mesh.failure[0] != '\0') {
+        snprintf(s.failure, sizeof s.failure, "%s", s.mesh.failure);
+        s.form = o->have_form ? o->form : s.mesh.pcase.form;
+        s.load = o->have_load ? o->load : -1;
+    } else {
+        PM_TRY(choose_load(o, &s, err));
+        status = solve(o, &s, err);
+        if (status == PM_NUMERIC && o->record_failure) {
+            snprintf(s.failure, sizeof s.failure, "fesolve: %.490s", err->text);
+            pm_warn("%s", err->text);
+            *err = (struct pm_err){0};
+        } else if (status != PM_OK) {
+            goto done;
+        }
+    }
+    PM_TRY(pm_h5_create(common->output, "state", common, extra, &out, err));
+    PM_TRY(pm_state_write(out, &s, err));
+    status = pm_h5_commit(out, err);
+    out = NULL;
+done:
+    pm_h5_close(out);
+    pm_state_release(&s);
+    return status;
+}

@@ -1,0 +1,20 @@
+/* fesolve: stable static equilibrium of a mesh at one load. */
+#ifndef PM_FESOLVE_H
+#define PM_FESOLVE_H
+
+#include "common/base/tool.h"
+#include "common/files/case.h"
+
+struct fesolve_opts {
+    int have_load, have_form, npressure; /* exactly one of load and pressure */
+    long load;
+    enum pm_form form;
+    double pressure[PM_MAX_CHAMBERS]; /* [p/mu] */
+    const char *guess, *element;
+    double tolerance;
+    int record_failure;
+};
+
+enum pm_status fesolve_run(const struct fesolve_opts *opts, const struct pm_common *common, struct pm_err *err);
+
+#endif

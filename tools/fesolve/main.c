@@ -1,0 +1,60 @@
+#include <string.h>
+
+#include "tools/fesolve/fesolve.h"
+
+static const struct pm_option options[] = {
+    {"load", 'l', "G", "solve at point G (from 0) of the Gauss set of the case"},
+    {"form", 'F', "NAME", "Gauss set: boundary or volume (default: the form of the case)"},
+    {"pressure", 'p', "P1,P2,..", "solve at these chamber pressures, as ratios p/mu"},
+    {"guess", 'g', "STATE.h5", "start from this state of a mesh with the same connectivity"},
+    {"element", 'e', "NAME", "tet10-blend (default), tet10 or tet10-mean"},
+    {"tolerance", 't', "T", "residual / pressure load at the solution (default 1e-8)"},
+    {"record-failure", 'r', NULL, "where there is no stable equilibrium, write a state that says why"},
+    {0}};
+
+static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
+{
+    struct fesolve_opts *o = data;
+    enum pm_status status = PM_OK;
+    if (strcmp(name, "load") == 0) {
+        o->have_load = 1;
+        status = pm_parse_long(name, value, &o->load, err);
+    } else if (strcmp(name, "form") == 0) {
+        o->have_form = 1;
+        o->form = strcmp(value, "volume") == 0 ? PM_FORM_VOLUME : PM_FORM_BOUNDARY;
+        if (strcmp(value, "volume") != 0 && strcmp(value, "boundary") != 0)
+            status = pm_fail(err, PM_USAGE, "option --form: found '%s', expected boundary or volume", value);
+    } else if (strcmp(name, "pressure") == 0) {
+        status = pm_parse_doubles(name, value, PM_MAX_CHAMBERS, o->pressure, &o->npressure, err);
+    } else if (strcmp(name, "guess") == 0) {
+        o->guess = value;
+    } else if (strcmp(name, "element") == 0) {
+        o->element = value;
+    } else if (strcmp(name, "tolerance") == 0) {
+        status = pm_parse_double(name, value, &o->tolerance, err);
+        if (status == PM_OK && !(o->tolerance > 0.0 && o->tolerance < 1.0))
+            status = pm_fail(err, PM_USAGE, "option --tolerance: found %s, expected a number in (0, 1)", value);
+    } else {
+        o->record_failure = 1;
+    }
+    return status;
+}
+
+static enum pm_status run(void *data, const struct pm_common *common, struct pm_err *err)
+{
+    return fesolve_run(data, common, err);
+}
+
+int main(int argc, char **argv)
+{
+    static const struct pm_tool tool = {.name = "fesolve",
+                                        .operands = "MESH.h5",
+                                        .summary = "stable static equilibrium of a soft robot at one load",
+                                        .options = options,
+                                        .min_operands = 1,
+                                        .max_operands = 1,
+                                        .option = option,
+                                        .run = run};
+    struct fesolve_opts opts = {.element = "tet10-blend", .tolerance = 1e-8};
+    return pm_tool_main(&tool, argc, argv, &opts);
+}
