@@ -1,4 +1,5 @@
-/* Status and errors: every function that can fail returns enum pm_status and takes struct pm_err last. */
+/* Status and errors: every function that can fail returns enum pm_status and takes struct pm_err
+ * last. */
 #ifndef PM_STATUS_H
 #define PM_STATUS_H
 
@@ -20,7 +21,8 @@ struct pm_err {
 enum pm_status pm_fail(struct pm_err *err, enum pm_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Passes a failure on to the one exit label of a function: needs `enum pm_status status` and `done:`. */
+/* Passes a failure on to the one exit label of a function: needs `enum pm_status status` and
+ * `done:`. */
 #define PM_TRY(call)                                                                               \
     do {                                                                                           \
         status = (call);                                                                           \

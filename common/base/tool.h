@@ -13,12 +13,13 @@ struct pm_option {
 };
 
 struct pm_common {
-    const char *output;   /* -o FILE, NULL if not given (the frame refuses that unless output_optional) */
-    int verbosity;        /* -q -1, 0, -v 1, -vv 2 */
+    const char
+        *output;   /* -o FILE, NULL if not given (the frame refuses that unless output_optional) */
+    int verbosity; /* -q -1, 0, -v 1, -vv 2 */
     int noperands;
     char **operands;
-    const char *tool;     /* name */
-    const char *command;  /* command line for provenance: base names of files, no absolute paths */
+    const char *tool;    /* name */
+    const char *command; /* command line for provenance: base names of files, no absolute paths */
 };
 
 struct pm_tool {
@@ -28,17 +29,20 @@ struct pm_tool {
     const struct pm_option *options; /* ends with a NULL name */
     int min_operands, max_operands;  /* max < 0: any number */
     int output_optional;
-    /* Takes one option by long name; value is NULL for a flag. PM_USAGE with a message if unusable. */
+    /* Takes one option by long name; value is NULL for a flag. PM_USAGE with a message if unusable.
+     */
     enum pm_status (*option)(void *opts, const char *name, const char *value, struct pm_err *err);
     enum pm_status (*run)(void *opts, const struct pm_common *common, struct pm_err *err);
 };
 
-/* Parses, runs, prints `name: message` to stderr on failure, returns the exit status. Also restarts the
- * process once with OMP_THREAD_LIMIT=1 and OPENBLAS_NUM_THREADS=1 where they are not set (both are read
- * at process start only), turns the GSL and HDF5 error printers off through their wrappers. */
+/* Parses, runs, prints `name: message` to stderr on failure, returns the exit status. Also restarts
+ * the process once with OMP_THREAD_LIMIT=1 and OPENBLAS_NUM_THREADS=1 where they are not set (both
+ * are read at process start only), turns the GSL and HDF5 error printers off through their
+ * wrappers. */
 int pm_tool_main(const struct pm_tool *tool, int argc, char **argv, void *opts);
 
-/* Whole-string numbers; PM_USAGE naming the option otherwise. Lists: "a,b,c", at most max, *n found. */
+/* Whole-string numbers; PM_USAGE naming the option otherwise. Lists: "a,b,c", at most max, *n
+ * found. */
 enum pm_status pm_parse_double(const char *name, const char *text, double *out, struct pm_err *err);
 enum pm_status pm_parse_long(const char *name, const char *text, long *out, struct pm_err *err);
 enum pm_status pm_parse_doubles(const char *name, const char *text, int max, double *out, int *n,

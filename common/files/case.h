@@ -1,5 +1,5 @@
-/* The design case: an INI text, parsed by libinih. Every file of a run carries the text of its case in
- * /case/text, so that no stage needs a file beyond its named inputs. Keys: pneumorph-case(5). */
+/* The design case: an INI text, parsed by libinih. Every file of a run carries the text of its case
+ * in /case/text, so that no stage needs a file beyond its named inputs. Keys: pneumorph-case(5). */
 #ifndef PM_CASE_H
 #define PM_CASE_H
 
@@ -24,8 +24,8 @@ struct pm_chamber {
     double spacing;   /* wanted spacing of control points [mm] */
 };
 
-/* Orthogonal operations x -> Q x + t that map the robot onto itself, identity first, with the chamber
- * permutation: chamber r goes to chamber chamber[r]. Chambers are 0-based. */
+/* Orthogonal operations x -> Q x + t that map the robot onto itself, identity first, with the
+ * chamber permutation: chamber r goes to chamber chamber[r]. Chambers are 0-based. */
 struct pm_symmetry {
     ptrdiff_t nops;
     double Q[PM_MAX_OPS][9];
@@ -37,9 +37,10 @@ struct pm_case {
     char *text; /* the INI text itself, NUL terminated, owned */
     char name[64];
     /* [material] */
-    char law[32];                          /* neo-hookean, mooney-rivlin, yeoh */
-    double law_parameter[PM_MAX_LAW_PARAMETERS]; /* by law: neo-hookean {mu}, mooney-rivlin {c10, c01}, yeoh {c1, c2, c3} [MPa] */
-    double mu, kappa;                      /* small-strain shear modulus, bulk modulus [MPa] */
+    char law[32];                                /* neo-hookean, mooney-rivlin, yeoh */
+    double law_parameter[PM_MAX_LAW_PARAMETERS]; /* by law: neo-hookean {mu}, mooney-rivlin {c10,
+                                                    c01}, yeoh {c1, c2, c3} [MPa] */
+    double mu, kappa; /* small-strain shear modulus, bulk modulus [MPa] */
     /* [body] */
     enum pm_body body;
     double height;      /* H [mm] */
@@ -57,7 +58,7 @@ struct pm_case {
     /* [workspace] */
     char measure[16]; /* 2T ... */
     enum pm_form form;
-    int dofs[6];  /* 0-based rows of (U, J) that the measure uses */
+    int dofs[6]; /* 0-based rows of (U, J) that the measure uses */
     int ndofs;
     /* [mesh] */
     double mesh_size; /* wanted edge length [mm] */
@@ -66,13 +67,15 @@ struct pm_case {
     double curvature_max; /* C_max [1/mm] */
     double cap_min;       /* chambers stay this far from the planes z = 0 and z = H [mm] */
     /* [optimisation] */
-    double radius, radius_max; /* trust radius at the start and its cap: rms surface displacement [mm] */
-    long remesh_every;         /* reconstruction at every n-th iteration, 0: never */
+    double radius,
+        radius_max;    /* trust radius at the start and its cap: rms surface displacement [mm] */
+    long remesh_every; /* reconstruction at every n-th iteration, 0: never */
     long max_iterations;
-    double tolerance;          /* relative change of the measure over five iterations */
+    double tolerance; /* relative change of the measure over five iterations */
 };
 
-enum pm_status pm_case_parse(const char *text, const char *name, struct pm_case *c, struct pm_err *err);
+enum pm_status pm_case_parse(const char *text, const char *name, struct pm_case *c,
+                             struct pm_err *err);
 enum pm_status pm_case_load(const char *path, struct pm_case *c, struct pm_err *err);
 /* A case that states only a material (imported meshes, tests): parse of a generated text. */
 enum pm_status pm_case_copy(const struct pm_case *from, struct pm_case *to, struct pm_err *err);

@@ -9,8 +9,9 @@ struct pm_sens {
     struct pm_case pcase;
     int64_t form, load;
     ptrdiff_t N;
-    double *gradient;  /* dw_g/dphi (N x 3), not projected on the symmetric subspace */
-    double identity_translation, identity_scaling, identity_rotation; /* relative defects of the nodal gradient [theory 4.3] */
+    double *gradient; /* dw_g/dphi (N x 3), not projected on the symmetric subspace */
+    double identity_translation, identity_scaling,
+        identity_rotation; /* relative defects of the nodal gradient [theory 4.3] */
 };
 
 enum pm_status pm_sens_load(const char *path, struct pm_sens *s, struct pm_err *err);

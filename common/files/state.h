@@ -14,17 +14,19 @@ struct pm_state {
     double U[6];        /* end-effector: translation [mm], rotation vector [rad] */
     double *J;          /* dU/d(p/mu)         (6 x n)  */
     double *volume, *volume0; /* chamber volumes, deformed and reference (n) [mm3] */
-    double reaction[6];       /* force [N] and moment about the reference point [N mm] of the clamp on the body */
-    double energy;            /* strain energy [mJ] */
-    double residual;          /* |g|_inf / |pressure load|_inf */
+    double reaction[6]; /* force [N] and moment about the reference point [N mm] of the clamp on the
+                           body */
+    double energy;      /* strain energy [mJ] */
+    double residual;    /* |g|_inf / |pressure load|_inf */
     double min_det_F;
     int64_t load_steps, newton_steps, factorisations, backoffs;
-    int64_t stable;           /* 1: tangent positive definite at the solution */
-    int64_t warm;             /* 1: started from --guess */
+    int64_t stable; /* 1: tangent positive definite at the solution */
+    int64_t warm;   /* 1: started from --guess */
 };
 
 enum pm_status pm_state_read(struct pm_h5 *f, struct pm_state *s, struct pm_err *err);
-enum pm_status pm_state_load(const char *path, int allow_failure, struct pm_state *s, struct pm_err *err);
+enum pm_status pm_state_load(const char *path, int allow_failure, struct pm_state *s,
+                             struct pm_err *err);
 enum pm_status pm_state_write(struct pm_h5 *f, const struct pm_state *s, struct pm_err *err);
 void pm_state_release(struct pm_state *s);
 

@@ -11,22 +11,24 @@ struct pm_work {
     double value;      /* the measure T = sum_g w_g */
     char name[16], unit[16];
     int64_t form;
-    double orientation; /* sigma = +1 or -1, frozen at the first design */
-    double value_other; /* the other form, 0 if its states were not given */
+    double orientation;      /* sigma = +1 or -1, frozen at the first design */
+    double value_other;      /* the other form, 0 if its states were not given */
     double quadrature_error; /* |value - value_other| / |value|, -1 if not known */
-    double min_det, max_det; /* of J (selected rows) times sigma over all points: a sign change is a fold */
+    double min_det,
+        max_det; /* of J (selected rows) times sigma over all points: a sign change is a fold */
     int64_t sign_changes;
-    ptrdiff_t ng, nc;  /* points of the chosen form, chambers */
-    int64_t *load;     /* index in the Gauss set    (ng) */
-    double *pressure;  /* (ng x nc) [p/mu] */
-    double *U;         /* (ng x 6) */
-    double *J;         /* (ng x 6 x nc) */
-    double *w;         /* contribution, sigma and weight included (ng) */
-    double *dw_dU;     /* (ng x 6) */
-    double *dw_dJ;     /* (ng x 6 x nc) */
+    ptrdiff_t ng, nc; /* points of the chosen form, chambers */
+    int64_t *load;    /* index in the Gauss set    (ng) */
+    double *pressure; /* (ng x nc) [p/mu] */
+    double *U;        /* (ng x 6) */
+    double *J;        /* (ng x 6 x nc) */
+    double *w;        /* contribution, sigma and weight included (ng) */
+    double *dw_dU;    /* (ng x 6) */
+    double *dw_dJ;    /* (ng x 6 x nc) */
 };
 
-enum pm_status pm_work_load(const char *path, int allow_failure, struct pm_work *w, struct pm_err *err);
+enum pm_status pm_work_load(const char *path, int allow_failure, struct pm_work *w,
+                            struct pm_err *err);
 enum pm_status pm_work_write(struct pm_h5 *f, const struct pm_work *w, struct pm_err *err);
 void pm_work_release(struct pm_work *w);
 

@@ -1,0 +1,300 @@
+#include "common/files/case_complete.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Slack of comparisons between numbers of the case file [mm]. */
+static const double slack = 1e-9;
+
+static enum pm_status missing(const char *name, const char *section, const char *key,
+                              struct pm_err *err)
+{
+    return pm_fail(err, PM_INPUT, "cannot use '%s': key '%s' in section '[%s]' is missing", name,
+                   key, section);
+}
+
+static enum pm_status bad_word(const char *name, const char *key, const char *found,
+                               const char *expected, struct pm_err *err)
+{
+    return pm_fail(err, PM_INPUT, "cannot use '%s': key '%s' is '%s', expected %s", name, key,
+                   found, expected);
+}
+
+static enum pm_status complete_material(struct pm_case_raw *raw, const char *name,
+                                        struct pm_err *err)
+{
+    struct pm_case *c = &raw->c;
+    double *parameter = c->law_parameter;
+    int neo = strcmp(c->law, "neo-hookean") == 0, mooney = strcmp(c->law, "mooney-rivlin") == 0;
+    int yeoh = strcmp(c->law, "yeoh") == 0;
+    if (!neo && !mooney && !yeoh)
+        return bad_word(name, "law", c->law, "neo-hookean, mooney-rivlin or yeoh", err);
+    const struct {
+        const char *key;
+        int given, wanted;
+    } use[] = {
+        {"mu", !isnan(raw->mu), neo},
+        {"c10", !isnan(raw->c10), mooney},
+        {"c01", !isnan(raw->c01), mooney},
+        {"c1", !isnan(raw->c1), yeoh},
+    };
+    for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
+        if (use[i].wanted && !use[i].given)
+            return missing(name, "material", use[i].key, err);
+        if (use[i].given && !use[i].wanted)
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': key '%s' is not a parameter of law '%s'", name,
+                           use[i].key, c->law);
+    }
+    if (!yeoh && (raw->c2 != 0 || raw->c3 != 0))
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': keys 'c2' and 'c3' are not parameters of law '%s'", name,
+                       c->law);
+    parameter[0] = neo ? raw->mu : mooney ? raw->c10 : raw->c1;
+    parameter[1] = mooney ? raw->c01 : yeoh ? raw->c2 : 0;
+    parameter[2] = yeoh ? raw->c3 : 0;
+    c->mu = neo ? raw->mu : mooney ? 2 * (raw->c10 + raw->c01) : 2 * raw->c1;
+    if (!(c->mu > 0))
+        return pm_fail(err, PM_INPUT, "cannot use '%s': 2 (c10 + c01) is %g, expected > 0", name,
+                       c->mu);
+    if (isnan(c->kappa))
+        c->kappa = 100 * c->mu;
+    return PM_OK;
+}
+
+static enum pm_status complete_body(struct pm_case_raw *raw, const char *name, struct pm_err *err)
+{
+    struct pm_case *c = &raw->c;
+    c->body = PM_BODY_ENVELOPE;
+    if (strcmp(raw->body, "cylinder") == 0)
+        c->body = PM_BODY_CYLINDER;
+    else if (raw->body[0] != '\0' && strcmp(raw->body, "envelope") != 0)
+        return bad_word(name, "shape", raw->body, "envelope or cylinder", err);
+    if (isnan(c->height))
+        return missing(name, "body", "height", err);
+    if (c->body == PM_BODY_CYLINDER && isnan(c->body_radius))
+        return missing(name, "body", "radius", err);
+    if (c->body == PM_BODY_ENVELOPE && isnan(c->wall))
+        return missing(name, "body", "wall", err);
+    if (c->body == PM_BODY_CYLINDER && (!isnan(c->wall) || !isnan(c->web)))
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': keys 'wall' and 'web' belong to shape = envelope", name);
+    if (c->body == PM_BODY_ENVELOPE && !isnan(c->body_radius))
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': key 'radius' in section '[body]' belongs to shape = "
+                       "cylinder",
+                       name);
+    if (c->body == PM_BODY_CYLINDER)
+        c->wall = c->web = 0;
+    else
+        c->body_radius = 0;
+    if (isnan(c->web))
+        c->web = 2 * c->wall;
+    if (c->around < 8 || c->rows < 8)
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': keys 'around' and 'rows' are %ld and %ld, expected "
+                       "at least 8",
+                       name, c->around, c->rows);
+    return PM_OK;
+}
+
+/* Radius of the bounding cylinder. */
+static double outer_radius(const struct pm_chamber *k)
+{
+    return k->radius + k->amplitude;
+}
+
+static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const char *name,
+                                       struct pm_err *err)
+{
+    static const char *const shapes[] = {"sphere", "ellipsoid", "capsule", "bellows"};
+    struct pm_chamber *c = &raw->c;
+    char section[16] = {'c', 'h', 'a', 'm', 'b', 'e', 'r', (char)('1' + r), '\0'};
+    int shape = 0;
+    while (shape < 4 && strcmp(shapes[shape], raw->shape) != 0)
+        shape++;
+    if (raw->shape[0] == '\0')
+        return missing(name, section, "shape", err);
+    if (shape == 4)
+        return bad_word(name, "shape", raw->shape, "sphere, ellipsoid, capsule or bellows", err);
+    c->shape = (enum pm_shape)shape;
+    int wave = c->shape == PM_SHAPE_BELLOWS, sphere = c->shape == PM_SHAPE_SPHERE;
+    const struct {
+        const char *key;
+        double value;
+        int wanted;
+    } use[] = {{"center", c->center[0], 1},
+               {"radius", c->radius, 1},
+               {"length", c->length, !sphere},
+               {"amplitude", c->amplitude, wave},
+               {"pitch", c->pitch, wave}};
+    for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
+        if (use[i].wanted && isnan(use[i].value))
+            return missing(name, section, use[i].key, err);
+        if (!use[i].wanted && !isnan(use[i].value))
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': key '%s' in section '[%s]' is not one of shape "
+                           "= %s",
+                           name, use[i].key, section, raw->shape);
+    }
+    if (sphere)
+        c->length = 2 * c->radius;
+    if (!wave)
+        c->amplitude = c->pitch = 0;
+    if (c->amplitude >= c->radius)
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': amplitude of chamber %d is %g, expected less than "
+                       "its radius %g",
+                       name, r + 1, c->amplitude, c->radius);
+    if ((c->shape == PM_SHAPE_CAPSULE || wave) && c->length < 2 * c->radius)
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': length of chamber %d is %g, expected at least twice "
+                       "its radius %g",
+                       name, r + 1, c->length, c->radius);
+    /* At least 14 control points around and 6 along a wave resolve the surface to a few hundredths
+       of a millimetre. */
+    if (isnan(c->spacing))
+        c->spacing = fmin(2.5, 2 * 3.14159265358979323846 * c->radius / 14);
+    if (wave && isnan(raw->c.spacing))
+        c->spacing = fmin(c->spacing, c->pitch / 6);
+    return PM_OK;
+}
+
+static enum pm_status complete_chambers(struct pm_case_raw *raw, const char *name,
+                                        struct pm_err *err)
+{
+    struct pm_case *c = &raw->c;
+    while (c->nchambers < PM_MAX_CHAMBERS && (raw->listed >> c->nchambers & 1u) != 0) {
+        int r = (int)c->nchambers++;
+        enum pm_status status = complete_chamber(&raw->chamber[r], r, name, err);
+        if (status != PM_OK)
+            return status;
+        c->chamber[r] = raw->chamber[r].c;
+    }
+    if (raw->listed >> c->nchambers != 0)
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': section '[chamber%td]' is missing, later ones are "
+                       "given",
+                       name, c->nchambers + 1);
+    return pm_case_images(c, name, err);
+}
+
+/* The chambers lie in the body and do not touch each other. */
+static enum pm_status check_chambers(const struct pm_case *c, const char *name, struct pm_err *err)
+{
+    for (ptrdiff_t r = 0; r < c->nchambers; r++) {
+        const struct pm_chamber *k = &c->chamber[r];
+        double low = k->center[2] - k->length / 2, high = k->center[2] + k->length / 2;
+        double reach = hypot(k->center[0], k->center[1]) + outer_radius(k);
+        if (low < c->cap_min - slack || high > c->height - c->cap_min + slack)
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': chamber %td reaches from z = %g to %g, expected "
+                           "within cap_min = %g and height - cap_min = %g",
+                           name, r + 1, low, high, c->cap_min, c->height - c->cap_min);
+        if (c->body == PM_BODY_CYLINDER && reach > c->body_radius - c->wall_min + slack)
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': chamber %td reaches to radius %g, expected at "
+                           "most body radius - wall_min = %g",
+                           name, r + 1, reach, c->body_radius - c->wall_min);
+        for (ptrdiff_t s = 0; s < r; s++) {
+            const struct pm_chamber *o = &c->chamber[s];
+            double gap = hypot(k->center[0] - o->center[0], k->center[1] - o->center[1]) -
+                         outer_radius(k) - outer_radius(o);
+            double gap_z = fabs(k->center[2] - o->center[2]) - (k->length + o->length) / 2;
+            if (gap <= 0 && gap_z <= 0)
+                return pm_fail(err, PM_INPUT,
+                               "cannot use '%s': chambers %td and %td overlap by %g mm, "
+                               "expected bounding cylinders apart",
+                               name, s + 1, r + 1, -gap);
+        }
+    }
+    return PM_OK;
+}
+
+static const struct {
+    const char *name;
+    int chambers, ndofs, dofs[6];
+} measures[] = {
+    {"2T", 2, 2, {0, 2}},    {"3T", 3, 3, {0, 1, 2}},   {"2R", 3, 3, {3, 4, 5}},
+    {"3R", 3, 3, {3, 4, 5}}, {"1R2T", 3, 3, {0, 2, 4}}, {"3R3T", 6, 6, {0, 1, 2, 3, 4, 5}},
+};
+
+/* "1,3" to {0, 2}: distinct numbers 1..6, ascending. */
+static int parse_dofs(const char *text, int *dofs)
+{
+    int n = 0, last = 0;
+    for (const char *p = text;; p++) {
+        p += strspn(p, " ");
+        if (*p < '1' || *p > '6' || *p - '0' <= last)
+            return 0;
+        last = *p - '0';
+        dofs[n++] = last - 1;
+        p++;
+        p += strspn(p, " ");
+        if (*p == '\0')
+            return n;
+        if (*p != ',')
+            return 0;
+    }
+}
+
+static enum pm_status complete_workspace(struct pm_case_raw *raw, const char *name,
+                                         struct pm_err *err)
+{
+    struct pm_case *c = &raw->c;
+    c->form = PM_FORM_BOUNDARY;
+    if (strcmp(raw->form, "volume") == 0)
+        c->form = PM_FORM_VOLUME;
+    else if (strcmp(raw->form, "boundary") != 0)
+        return bad_word(name, "form", raw->form, "boundary or volume", err);
+    if (!(c->pmax > c->pmin))
+        return pm_fail(err, PM_INPUT, "cannot use '%s': pmax is %g, expected more than pmin = %g",
+                       name, c->pmax, c->pmin);
+    if (c->points > 16)
+        return pm_fail(err, PM_INPUT, "cannot use '%s': points is %ld, expected at most 16", name,
+                       c->points);
+    if (c->measure[0] == '\0')
+        return c->nchambers > 0 ? missing(name, "workspace", "measure", err) : PM_OK;
+    size_t m = 0, count = sizeof measures / sizeof measures[0];
+    while (m < count && strcmp(measures[m].name, c->measure) != 0)
+        m++;
+    if (m == count)
+        return bad_word(name, "measure", c->measure, "2T, 3T, 2R, 3R, 1R2T or 3R3T", err);
+    c->ndofs = measures[m].ndofs;
+    memcpy(c->dofs, measures[m].dofs, sizeof c->dofs);
+    if (raw->dofs[0] != '\0' && parse_dofs(raw->dofs, c->dofs) != c->ndofs)
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': key 'dofs' is '%s', expected %d ascending numbers "
+                       "out of 1..6",
+                       name, raw->dofs, c->ndofs);
+    if (c->nchambers > 0 && c->nchambers != measures[m].chambers)
+        return pm_fail(err, PM_INPUT, "cannot use '%s': measure %s with %td chambers, expected %d",
+                       name, c->measure, c->nchambers, measures[m].chambers);
+    return PM_OK;
+}
+
+enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_case *c = &raw->c;
+    if (c->name[0] == '\0')
+        PM_TRY(missing(name, "case", "name", err));
+    PM_TRY(complete_material(raw, name, err));
+    int has_body = raw->body[0] != '\0' || !isnan(c->height) || !isnan(c->wall) || !isnan(c->web) ||
+                   !isnan(c->body_radius);
+    if (raw->listed != 0 || has_body)
+        PM_TRY(complete_body(raw, name, err));
+    else
+        c->height = c->wall = c->web = c->body_radius = 0;
+    PM_TRY(pm_case_group(raw->group, c->height, &c->symmetry, name, err));
+    PM_TRY(complete_chambers(raw, name, err));
+    PM_TRY(check_chambers(c, name, err));
+    PM_TRY(complete_workspace(raw, name, err));
+    if (c->radius > c->radius_max)
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "cannot use '%s': radius in section '[optimisation]' is %g, expected "
+                       "at most radius_max = %g",
+                       name, c->radius, c->radius_max));
+done:
+    return status;
+}

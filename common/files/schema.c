@@ -1,0 +1,198 @@
+#include "common/files/schema.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define D    PM_TYPE_DOUBLE
+#define I32  PM_TYPE_INT32
+#define I64  PM_TYPE_INT64
+#define U8   PM_TYPE_UINT8
+#define TEXT PM_TYPE_TEXT
+
+/* clang-format off */
+static const struct pm_item table[] = {
+    {"surface mesh state work sens step", "/case/text", TEXT, "", "1", "the design case, pneumorph-case(5)", 1},
+    {"mesh state work step", "/failure", TEXT, "", "1", "why there is no result; then only the case and the load are certain", 0},
+
+    {"surface step", "/surface%d/type", I64, "", "1", "0 B-spline tube, 1 sphere map", 1},
+    {"surface step", "/surface%d/phi", D, "n%d 3", "mm", "control points", 1},
+    {"surface step", "/surface%d/free", U8, "n%d 3", "1", "1 where the coordinate is a design variable", 1},
+    {"surface step", "/surface%d/Phi", D, "n%d 3", "1", "reference control points on the parameter shape", 1},
+    {"surface step", "/surface%d/d0", D, "n%d", "1", "support radii, chord metric (B-spline: 0)", 1},
+    {"surface step", "/surface%d/nu", I64, "", "1", "B-spline: control points around (sphere map: 0)", 1},
+    {"surface step", "/surface%d/nv", I64, "", "1", "B-spline: control points along (sphere map: 0)", 1},
+    {"surface step", "/surface%d/tri", I32, "nt%d 3", "1", "triangles of control points, outward", 1},
+    {"surface step", "/symmetry/perm", I32, "nops N", "1", "control point i goes to perm under each operation", 1},
+    {"surface mesh state step", "/tip/reference_point", D, "3", "mm", "reference point of the end-effector", 1},
+
+    {"mesh state", "/mesh/x", D, "nn 3", "mm", "reference node positions", 1},
+    {"mesh state", "/mesh/x_generated", D, "nn 3", "mm", "node positions as generated, before morphing", 1},
+    {"mesh state", "/mesh/tet", I32, "ne 10", "1", "nodes of the tetrahedra, edges (01)(12)(20)(30)(23)(13)", 1},
+    {"mesh state", "/mesh/tri", I32, "nf 6", "1", "nodes of the boundary faces, edges (01)(12)(20), outward", 1},
+    {"mesh state", "/mesh/tri_tag", I32, "nf", "1", "0 exterior, 1.. chambers, -1 base, -2 tip, -3 -4 -5 symmetry planes x y z", 1},
+    {"mesh state", "/mesh/chambers", I64, "", "1", "number of chambers", 1},
+    {"mesh state", "/mesh/control_points", I64, "", "1", "number of control points N, 0 for an imported mesh", 1},
+    {"mesh state", "/mesh/surface", I32, "nn", "1", "surface of the node, -1 for none", 1},
+    {"mesh state", "/mesh/S", D, "nn 3", "1", "surface parameter of the node", 1},
+    {"mesh state", "/mesh/weight_ptr", I64, "nn+1", "1", "first weight of each node", 1},
+    {"mesh state", "/mesh/weight_col", I32, "nw", "1", "control point of the weight", 1},
+    {"mesh state", "/mesh/weight_val", D, "nw", "1", "weight: x = sum weight * phi", 1},
+    {"mesh state", "/mesh/max_damping", D, "", "1", "largest damping of a mid-side node", 1},
+    {"mesh state", "/mesh/min_jacobian", D, "", "1", "smallest scaled Jacobian, lower bound", 1},
+    {"mesh state", "/mesh/tag", I64, "nn", "1", "node numbers of the imported file", 0},
+
+    {"mesh state", "/VTKHDF/NumberOfPoints", I64, "1", "1", "VTK: points", 1},
+    {"mesh state", "/VTKHDF/NumberOfCells", I64, "1", "1", "VTK: cells", 1},
+    {"mesh state", "/VTKHDF/NumberOfConnectivityIds", I64, "1", "1", "VTK: entries of Connectivity", 1},
+    {"mesh state", "/VTKHDF/Connectivity", I64, "nv", "1", "VTK: nodes of the cells in VTK order", 1},
+    {"mesh state", "/VTKHDF/Offsets", I64, "ne+1", "1", "VTK: first node of each cell", 1},
+    {"mesh state", "/VTKHDF/Types", U8, "ne", "1", "VTK: 24, the quadratic tetrahedron", 1},
+
+    {"state sens", "/load/form", I64, "", "1", "Gauss set: 0 boundary form, 1 volume form", 1},
+    {"state sens", "/load/index", I64, "", "1", "point of the Gauss set, -1 for free pressures", 1},
+    {"state", "/load/pressure", D, "nc", "p/mu", "chamber pressures", 1},
+    {"state", "/node/displacement", D, "nn 3", "mm", "nodal displacement", 1},
+    {"state", "/tip/U", D, "6", "mm, rad", "end-effector translation and rotation vector", 1},
+    {"state", "/tip/J", D, "6 nc", "mm, rad", "dU/d(p/mu)", 1},
+    {"state", "/chamber/volume", D, "nc", "mm3", "deformed chamber volumes", 1},
+    {"state", "/chamber/volume0", D, "nc", "mm3", "reference chamber volumes", 1},
+    {"state", "/base/reaction", D, "6", "N, N mm", "force and moment of the clamp about the reference point", 1},
+    {"state", "/solve/element", TEXT, "", "1", "element", 1},
+    {"state", "/solve/energy", D, "", "mJ", "strain energy", 1},
+    {"state", "/solve/residual", D, "", "1", "largest residual over largest pressure load", 1},
+    {"state", "/solve/min_det_F", D, "", "1", "smallest det F at a quadrature point", 1},
+    {"state", "/solve/load_steps", I64, "", "1", "load steps", 1},
+    {"state", "/solve/newton_steps", I64, "", "1", "Newton steps", 1},
+    {"state", "/solve/factorisations", I64, "", "1", "factorisations", 1},
+    {"state", "/solve/backoffs", I64, "", "1", "load steps taken back", 1},
+    {"state", "/solve/stable", I64, "", "1", "1: tangent positive definite at the solution", 1},
+    {"state", "/solve/warm", I64, "", "1", "1: started from a guess", 1},
+
+    {"work", "/measure/value", D, "", "see /measure/unit", "workspace measure", 1},
+    {"work", "/measure/name", TEXT, "", "1", "2T 3T 2R 3R 1R2T 3R3T", 1},
+    {"work", "/measure/unit", TEXT, "", "1", "unit of the value", 1},
+    {"work", "/measure/form", I64, "", "1", "0 boundary form, 1 volume form", 1},
+    {"work", "/measure/orientation", D, "", "1", "sign sigma, frozen at the first design", 1},
+    {"work", "/measure/value_other", D, "", "see /measure/unit", "measure by the other form, 0 if not computed", 1},
+    {"work", "/measure/quadrature_error", D, "", "1", "relative difference of the forms, -1 if not known", 1},
+    {"work", "/measure/min_det", D, "", "1", "smallest signed det J over the points", 1},
+    {"work", "/measure/max_det", D, "", "1", "largest signed det J over the points", 1},
+    {"work", "/measure/sign_changes", I64, "", "1", "points where det J changes sign", 1},
+    {"work", "/point/load", I64, "ng", "1", "index in the Gauss set", 1},
+    {"work", "/point/pressure", D, "ng nc", "p/mu", "chamber pressures", 1},
+    {"work", "/point/U", D, "ng 6", "mm, rad", "end-effector", 1},
+    {"work", "/point/J", D, "ng 6 nc", "mm, rad", "dU/d(p/mu)", 1},
+    {"work", "/point/w", D, "ng", "see /measure/unit", "contribution to the value", 1},
+    {"work", "/point/dw_dU", D, "ng 6", "1", "derivative of the contribution", 1},
+    {"work", "/point/dw_dJ", D, "ng 6 nc", "1", "derivative of the contribution", 1},
+
+    {"sens", "/gradient/phi", D, "N 3", "1", "derivative of the contribution by the control points", 1},
+    {"sens", "/gradient/identity_translation", D, "", "1", "relative defect of the nodal gradient", 1},
+    {"sens", "/gradient/identity_scaling", D, "", "1", "relative defect of the nodal gradient", 1},
+    {"sens", "/gradient/identity_rotation", D, "", "1", "relative defect of the nodal gradient", 1},
+
+    {"step", "/accepted/surface%d/type", I64, "", "1", "last accepted design: 0 B-spline tube, 1 sphere map", 1},
+    {"step", "/accepted/surface%d/phi", D, "an%d 3", "mm", "control points", 1},
+    {"step", "/accepted/surface%d/free", U8, "an%d 3", "1", "1 where the coordinate is a design variable", 1},
+    {"step", "/accepted/surface%d/Phi", D, "an%d 3", "1", "reference control points on the parameter shape", 1},
+    {"step", "/accepted/surface%d/d0", D, "an%d", "1", "support radii, chord metric (B-spline: 0)", 1},
+    {"step", "/accepted/surface%d/nu", I64, "", "1", "B-spline: control points around (sphere map: 0)", 1},
+    {"step", "/accepted/surface%d/nv", I64, "", "1", "B-spline: control points along (sphere map: 0)", 1},
+    {"step", "/accepted/surface%d/tri", I32, "ant%d 3", "1", "triangles of control points, outward", 1},
+    {"step", "/accepted/symmetry/perm", I32, "nops aN", "1", "control point i goes to perm under each operation", 1},
+    {"step", "/accepted/value", D, "", "see work", "measure of the accepted design", 1},
+    {"step", "/accepted/gradient", D, "aN 3", "1", "dT/dphi, projected on symmetric free vectors", 1},
+    {"step", "/accepted/penalty", D, "2", "1", "curvature and wall penalties without weights", 1},
+    {"step", "/accepted/worst", D, "2", "1", "largest relative violation of curvature and wall", 1},
+    {"step", "/step/verdict", TEXT, "", "1", "continue, converged or stalled", 1},
+    {"step", "/step/weight", D, "2", "see work", "weights of the curvature and wall penalties", 1},
+    {"step", "/step/radius", D, "", "mm", "trust radius of the proposal", 1},
+    {"step", "/step/gain", D, "", "see work", "predicted gain of the measure", 1},
+    {"step", "/step/penalty", D, "2", "1", "curvature and wall penalties of the proposal", 1},
+    {"step", "/step/worst", D, "2", "1", "largest relative violations of the proposal", 1},
+    {"step", "/step/rms_step", D, "", "mm", "rms surface displacement of the proposal", 1},
+    {"step", "/step/max_step", D, "", "mm", "largest control point displacement of the proposal", 1},
+    {"step", "/trial/iteration", I64, "nh", "1", "history of judged trials, 0 is the first design", 1},
+    {"step", "/trial/accepted", I64, "nh", "1", "1 accepted, 0 rejected", 1},
+    {"step", "/trial/measure", D, "nh", "see work", "measure, 0 where the design failed", 1},
+    {"step", "/trial/merit", D, "nh", "see work", "measure minus penalties", 1},
+    {"step", "/trial/predicted", D, "nh", "see work", "predicted gain of merit", 1},
+    {"step", "/trial/ratio", D, "nh", "1", "actual over predicted gain", 1},
+    {"step", "/trial/radius", D, "nh", "mm", "trust radius", 1},
+    {"step", "/trial/worst_curvature", D, "nh", "1", "largest relative excess of curvature", 1},
+    {"step", "/trial/worst_wall", D, "nh", "1", "largest relative lack of wall thickness", 1},
+    {"step", "/trial/rms_step", D, "nh", "mm", "rms surface displacement", 1},
+    {"step", "/trial/reason", TEXT, "", "1", "reasons of rejections, one line per trial", 1},
+};
+/* clang-format on */
+
+const struct pm_item *pm_schema_items(ptrdiff_t *n)
+{
+    *n = (ptrdiff_t)(sizeof table / sizeof table[0]);
+    return table;
+}
+
+int pm_schema_word_in(const char *word, const char *list)
+{
+    size_t length = strlen(word);
+    for (const char *p = list; *p != '\0'; p += strcspn(p, " ")) {
+        p += strspn(p, " ");
+        if (length > 0 && strcspn(p, " ") == length && strncmp(p, word, length) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+/* Matches a path against a name with at most one %d. */
+static int matches(const char *pattern, const char *name, int *index)
+{
+    *index = 0;
+    const char *hole = strstr(pattern, "%d");
+    if (hole == NULL)
+        return strcmp(pattern, name) == 0;
+    size_t head = (size_t)(hole - pattern);
+    if (strncmp(pattern, name, head) != 0)
+        return 0;
+    size_t digits = strspn(name + head, "0123456789");
+    if (digits == 0 || digits > 6 || strcmp(hole + 2, name + head + digits) != 0)
+        return 0;
+    *index = (int)strtol(name + head, NULL, 10);
+    return 1;
+}
+
+const struct pm_item *pm_schema_find(const char *kind, const char *name, int *index)
+{
+    for (size_t i = 0; i < sizeof table / sizeof table[0]; i++)
+        if (pm_schema_word_in(kind, table[i].kinds) && matches(table[i].name, name, index))
+            return &table[i];
+    return NULL;
+}
+
+int pm_schema_sizes(const struct pm_item *item, int index, int max, struct pm_size *size)
+{
+    int rank = 0;
+    for (const char *p = item->shape; *p != '\0' && rank < max; p += strspn(p, " ")) {
+        size_t length = strcspn(p, " ");
+        size_t symbol = strcspn(p, " +");
+        struct pm_size *s = &size[rank++];
+        *s = (struct pm_size){.add = 0};
+        if (strspn(p, "0123456789") == length) {
+            s->add = strtol(p, NULL, 10);
+        } else if (symbol > 2 && strncmp(p + symbol - 2, "%d", 2) == 0) {
+            snprintf(s->symbol, sizeof s->symbol, "%.*s%d", (int)symbol - 2, p, index);
+        } else {
+            snprintf(s->symbol, sizeof s->symbol, "%.*s", (int)symbol, p);
+        }
+        if (p[symbol] == '+')
+            s->add = strtol(p + symbol + 1, NULL, 10);
+        p += length;
+    }
+    return rank;
+}
+
+const char *pm_schema_type_name(enum pm_type type)
+{
+    static const char *const names[] = {"double", "int32", "int64", "uint8", "text"};
+    return names[type];
+}

@@ -1,0 +1,44 @@
+/* One step of the optimisation: the proposed surfaces, what they came from, and the history. Kind
+ * `step`; readable as surfaces (pm_surfaces_load): those are the proposed trial. */
+#ifndef PM_STEP_H
+#define PM_STEP_H
+
+#include "common/files/surfaces.h"
+
+/* One judged trial. */
+struct pm_trial {
+    int64_t iteration; /* 0 is the first design */
+    int64_t accepted;  /* 1, 0 */
+    double measure;    /* T; 0 where the design failed (then the reason says why) */
+    double merit;      /* T - rho_c C_c - rho_t C_t with the weights of its sub-problem */
+    double predicted;  /* predicted gain of merit over the last accepted design */
+    double ratio;      /* actual / predicted */
+    double radius;     /* trust radius of its sub-problem [mm] */
+    double worst_curvature, worst_wall; /* largest relative violations, >= 0 */
+    double rms_step;  /* rms surface displacement from the last accepted design [mm] */
+    char reason[160]; /* of a rejection, "" */
+};
+
+struct pm_step {
+    struct pm_surfaces trial;    /* proposed; pcase is the case of the run */
+    struct pm_surfaces accepted; /* last accepted design (its pcase is a copy) */
+    char verdict[16]; /* continue, converged, stalled; the latter propose the accepted design */
+    double value;     /* T of the accepted design */
+    double *gradient; /* dT/dphi of the accepted design, projected on the symmetric free subspace (N
+                         x 3) */
+    double penalty[2],
+        worst[2];     /* sums of curvature and wall penalties without weights, largest violations */
+    double weight[2]; /* rho_c, rho_t */
+    double radius;    /* of the proposal [mm] */
+    double gain;      /* predicted gain of T of the proposal */
+    double trial_penalty[2], trial_worst[2]; /* of the proposal */
+    double rms_step, max_step;               /* of the proposal [mm] */
+    ptrdiff_t ntrials;
+    struct pm_trial *trials; /* (ntrials), oldest first */
+};
+
+enum pm_status pm_step_load(const char *path, struct pm_step *s, struct pm_err *err);
+enum pm_status pm_step_write(struct pm_h5 *f, const struct pm_step *s, struct pm_err *err);
+void pm_step_release(struct pm_step *s);
+
+#endif

@@ -1,0 +1,210 @@
+/* Small valid records of every kind for tests of files and tools: one curved tetrahedron, two
+ * chambers. */
+#ifndef RECORDS_H
+#define RECORDS_H
+
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/files/mesh.h"
+#include "common/files/sens.h"
+#include "common/files/state.h"
+#include "common/files/surfaces.h"
+#include "common/files/work.h"
+
+static const char sample_case_text[] =
+    "[case]\nname = sample\n"
+    "[material]\nmu = 0.5\n"
+    "[body]\nheight = 100\nwall = 3\n"
+    "[chamber1]\nshape = sphere\ncenter = 15, 0, 50\nradius = 10\n"
+    "[symmetry]\ngroup = mirror-x\n"
+    "[workspace]\nmeasure = 2T\n";
+
+static inline double sample_number(ptrdiff_t i)
+{
+    return (double)((7 * i + 3) % 11) / 8 - 0.5;
+}
+
+static inline enum pm_status sample_numbers(double **p, ptrdiff_t n, struct pm_err *err)
+{
+    enum pm_status status;
+    PM_TRY(PM_NEW(*p, n, err));
+    for (ptrdiff_t i = 0; i < n; i++)
+        (*p)[i] = sample_number(i);
+done:
+    return status;
+}
+
+static inline enum pm_status sample_surface(struct pm_surface *s, int32_t type, struct pm_err *err)
+{
+    enum pm_status status;
+    s->type = type;
+    s->nu = s->nv = type == PM_SURFACE_BSPLINE ? 4 : 0;
+    s->n = type == PM_SURFACE_BSPLINE ? 16 : 6;
+    s->nt = 2;
+    PM_TRY(sample_numbers(&s->phi, 3 * s->n, err));
+    PM_TRY(sample_numbers(&s->Phi, 3 * s->n, err));
+    PM_TRY(PM_NEW(s->free, 3 * s->n, err));
+    PM_TRY(PM_NEW(s->d0, s->n, err));
+    PM_TRY(PM_NEW(s->tri, 3 * s->nt, err));
+    for (ptrdiff_t i = 0; i < s->n; i++) {
+        s->free[3 * i] = 1;
+        s->d0[i] = type == PM_SURFACE_SPHERE ? 1 : 0;
+    }
+    for (int i = 0; i < 6; i++)
+        s->tri[i] = i % 4;
+done:
+    return status;
+}
+
+static inline enum pm_status sample_surfaces(struct pm_surfaces *s, struct pm_err *err)
+{
+    enum pm_status status;
+    *s = (struct pm_surfaces){.ns = 0, .reference_point = {0, 0, 100}};
+    PM_TRY(pm_case_parse(sample_case_text, "sample", &s->pcase, err));
+    PM_TRY(PM_NEW(s->s, 3, err));
+    s->ns = 3;
+    PM_TRY(PM_NEW(s->offset, 4, err));
+    for (int k = 0; k < 3; k++) {
+        PM_TRY(sample_surface(&s->s[k], k == 0 ? PM_SURFACE_BSPLINE : PM_SURFACE_SPHERE, err));
+        s->offset[k + 1] = s->offset[k] + s->s[k].n;
+    }
+    ptrdiff_t N = s->offset[3];
+    PM_TRY(PM_NEW(s->perm, 2 * N, err));
+    for (ptrdiff_t i = 0; i < N; i++) {
+        s->perm[i] = (int32_t)i;
+        s->perm[N + i] = (int32_t)(N - 1 - i);
+    }
+done:
+    return status;
+}
+
+static inline enum pm_status sample_mesh(struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status;
+    static const int32_t faces[4][6] = {
+        {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {1, 2, 3, 5, 8, 9}, {0, 3, 2, 7, 8, 6}};
+    static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
+    *m = (struct pm_mesh){
+        .nn = 10, .ne = 1, .nf = 4, .nc = 2, .nw = 4, .N = 28, .min_jacobian = 0.5};
+    PM_TRY(pm_case_parse(sample_case_text, "sample", &m->pcase, err));
+    PM_TRY(PM_NEW(m->x, 30, err));
+    PM_TRY(PM_NEW(m->x_generated, 30, err));
+    PM_TRY(PM_NEW(m->tet, 10, err));
+    PM_TRY(PM_NEW(m->tri, 24, err));
+    PM_TRY(PM_NEW(m->tri_tag, 4, err));
+    PM_TRY(PM_NEW(m->surface, 10, err));
+    PM_TRY(PM_NEW(m->S, 30, err));
+    PM_TRY(PM_NEW(m->wptr, 11, err));
+    PM_TRY(PM_NEW(m->wcol, 4, err));
+    PM_TRY(PM_NEW(m->wval, 4, err));
+    for (int a = 0; a < 10; a++) {
+        for (int i = 0; i < 3; i++)
+            m->x[3 * a + i] =
+                a < 4 ? corner[a][i] : (corner[edge[a - 4][0]][i] + corner[edge[a - 4][1]][i]) / 2;
+        m->tet[a] = a;
+        m->surface[a] = a < 2 ? a : -1;
+        m->wptr[a + 1] = a < 2 ? 2 * (a + 1) : 4;
+    }
+    memcpy(m->x_generated, m->x, 30 * sizeof *m->x);
+    memcpy(m->tri, faces, sizeof faces);
+    m->tri_tag[0] = PM_FACE_BASE;
+    m->tri_tag[1] = PM_FACE_TIP;
+    m->tri_tag[2] = 2;
+    for (int i = 0; i < 4; i++) {
+        m->wcol[i] = 7 * i;
+        m->wval[i] = 0.5;
+    }
+    m->reference_point[2] = 100;
+done:
+    return status;
+}
+
+static inline enum pm_status sample_state(struct pm_state *s, struct pm_err *err)
+{
+    enum pm_status status;
+    *s = (struct pm_state){.element = "tet10",
+                           .load = 1,
+                           .energy = 2.5,
+                           .residual = 1e-9,
+                           .min_det_F = 0.9,
+                           .load_steps = 3,
+                           .newton_steps = 9,
+                           .factorisations = 11,
+                           .backoffs = 1,
+                           .stable = 1};
+    PM_TRY(sample_mesh(&s->mesh, err));
+    PM_TRY(sample_numbers(&s->pressure, 2, err));
+    PM_TRY(sample_numbers(&s->u, 30, err));
+    PM_TRY(sample_numbers(&s->J, 12, err));
+    PM_TRY(sample_numbers(&s->volume, 2, err));
+    PM_TRY(sample_numbers(&s->volume0, 2, err));
+    for (int i = 0; i < 6; i++)
+        s->U[i] = s->reaction[i] = sample_number(i);
+done:
+    return status;
+}
+
+static inline enum pm_status sample_work(struct pm_work *w, struct pm_err *err)
+{
+    enum pm_status status;
+    *w = (struct pm_work){.value = 12.5,
+                          .name = "2T",
+                          .unit = "mm2",
+                          .orientation = -1,
+                          .quadrature_error = -1,
+                          .min_det = 1,
+                          .max_det = 2,
+                          .ng = 4,
+                          .nc = 2};
+    PM_TRY(pm_case_parse(sample_case_text, "sample", &w->pcase, err));
+    PM_TRY(PM_NEW(w->load, 4, err));
+    for (int g = 0; g < 4; g++)
+        w->load[g] = g;
+    PM_TRY(sample_numbers(&w->pressure, 8, err));
+    PM_TRY(sample_numbers(&w->U, 24, err));
+    PM_TRY(sample_numbers(&w->J, 48, err));
+    PM_TRY(sample_numbers(&w->w, 4, err));
+    PM_TRY(sample_numbers(&w->dw_dU, 24, err));
+    PM_TRY(sample_numbers(&w->dw_dJ, 48, err));
+done:
+    return status;
+}
+
+static inline enum pm_status sample_sens(struct pm_sens *s, struct pm_err *err)
+{
+    enum pm_status status;
+    *s = (struct pm_sens){.N = 28, .load = 2, .identity_scaling = 1e-12};
+    PM_TRY(pm_case_parse(sample_case_text, "sample", &s->pcase, err));
+    PM_TRY(sample_numbers(&s->gradient, 84, err));
+done:
+    return status;
+}
+
+/* Writes a record (struct pm_surfaces, pm_mesh ... by kind) as a file of its own. */
+static inline enum pm_status sample_write(const char *path, const char *kind, const void *record,
+                                          struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_h5 *f = NULL;
+    const struct pm_common common = {.tool = "sample", .command = "sample"};
+    PM_TRY(pm_h5_create(path, kind, &common, NULL, &f, err));
+    if (strcmp(kind, "surface") == 0)
+        PM_TRY(pm_surfaces_write(f, record, err));
+    else if (strcmp(kind, "mesh") == 0)
+        PM_TRY(pm_mesh_write(f, record, err));
+    else if (strcmp(kind, "state") == 0)
+        PM_TRY(pm_state_write(f, record, err));
+    else if (strcmp(kind, "work") == 0)
+        PM_TRY(pm_work_write(f, record, err));
+    else
+        PM_TRY(pm_sens_write(f, record, err));
+    PM_TRY(pm_h5_commit(f, err));
+    f = NULL;
+done:
+    pm_h5_close(f);
+    return status;
+}
+
+#endif
