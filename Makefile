@@ -6,6 +6,7 @@ SHELL = /bin/bash
 VERSION := $(shell cat VERSION)
 PREFIX ?= /usr/local
 DESTDIR ?=
+DEPS ?=
 CC ?= cc
 ARCH ?= native
 CFLAGS ?= -O3
@@ -25,7 +26,7 @@ HDF5_LIBS := $(shell $(PKG_CONFIG) --libs hdf5-serial 2>/dev/null || $(PKG_CONFI
 WARN := -Wall -Wextra -Wshadow -Wconversion -Wcast-qual -Wwrite-strings -Wundef -Wvla -Wformat=2 \
 	-Wstrict-prototypes -Wmissing-prototypes -Wdouble-promotion $(WERROR)
 ALL_CFLAGS = -std=c17 -pedantic -D_POSIX_C_SOURCE=200809L -DPM_VERSION='"$(VERSION)"' $(WARN) \
-	$(if $(ARCH),-march=$(ARCH)) -fno-math-errno -ffp-contract=off $(CFLAGS) $(SANFLAGS) -I. -isystem /usr/include/suitesparse \
+	$(if $(ARCH),-march=$(ARCH)) -fno-math-errno -ffp-contract=fast $(CFLAGS) $(SANFLAGS) -I. -isystem /usr/include/suitesparse \
 	$(patsubst -I%,-isystem %,$(HDF5_CFLAGS)) $(CPPFLAGS)
 LIBS = $(HDF5_LIBS) -lcholmod -lmetis -lopenblas -lgsl -llbfgs -linih -lz -lm
 LIBS_tetmesh = -lgmsh
@@ -39,8 +40,15 @@ TEST_BIN := $(TEST_SRC:%.c=$B/%)
 # A test may use the kernels of a tool: every object of a tool but main.o, gathered without gmsh's users.
 KERNEL_SRC := $(filter-out %/main.c tools/tetmesh/volume_gmsh.c,$(wildcard tools/*/*.c))
 
-.PHONY: all
-all: $(TOOL_BIN)
+# The flags of HDF5 are read when make starts: what may install packages first goes through a second make.
+.PHONY: all build deps deps-lint
+all: deps ## build the tools to build/bin (installs missing packages first, DEPS=no: does not)
+	+@$(MAKE) --no-print-directory build
+build: $(TOOL_BIN)
+deps: ## install the Debian packages that are missing
+	@DEPS='$(DEPS)' ./deps.sh build
+deps-lint:
+	@DEPS='$(DEPS)' ./deps.sh lint
 
 # Changed flags rebuild everything.
 $B/flags: FORCE
@@ -51,8 +59,12 @@ $B/%.o: %.c $B/flags
 	@mkdir -p $(@D)
 	$(CC) $(ALL_CFLAGS) -MMD -MP -c $< -o $@
 
-$B/libpneumorph.a: $(COMMON_OBJ)
-	@rm -f $@; $(AR) rcs $@ $^
+# A file that came or went makes the archives anew.
+$B/sources: FORCE
+	@mkdir -p $B; echo '$(COMMON_SRC) $(KERNEL_SRC)' | cmp -s - $@ || echo '$(COMMON_SRC) $(KERNEL_SRC)' > $@
+
+$B/libpneumorph.a: $(COMMON_OBJ) $B/sources
+	@rm -f $@; $(AR) rcs $@ $(COMMON_OBJ)
 
 define tool_rule
 $B/bin/$(1): $(patsubst %.c,$B/%.o,$(wildcard tools/$(1)/*.c)) $B/libpneumorph.a
@@ -61,13 +73,65 @@ $B/bin/$(1): $(patsubst %.c,$B/%.o,$(wildcard tools/$(1)/*.c)) $B/libpneumorph.a
 endef
 $(foreach t,$(TOOLS),$(eval $(call tool_rule,$(t))))
 
-$B/libkernels.a: $(KERNEL_SRC:%.c=$B/%.o)
-	@rm -f $@; $(AR) rcs $@ $^
+KERNEL_OBJ := $(KERNEL_SRC:%.c=$B/%.o)
+$B/libkernels.a: $(KERNEL_OBJ) $B/sources
+	@rm -f $@; $(AR) rcs $@ $(KERNEL_OBJ)
 
 $B/tests/%: $B/tests/%.o $B/libkernels.a $B/libpneumorph.a
 	$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ $(LIBS) -lcjson -o $@
 .PRECIOUS: $B/%.o
 
 -include $(COMMON_OBJ:.o=.d) $(wildcard $B/tools/*/*.d $B/tests/*/*.d)
+
+# Tests: C programs and shell scripts that print TAP. `make check T='tests/unit/records.c'` runs some.
+TEST_SH := $(wildcard tests/cli/*.sh tests/verify/*.sh tests/pipeline/*.sh)
+TEST_TOOL := $(patsubst tests/lib/%.c,$B/tests/lib/%,$(wildcard tests/lib/*.c))
+T ?= $(TEST_SRC) $(TEST_SH)
+PROVE_JOBS ?= 2
+RUN_TESTS = $(patsubst %.c,$B/%,$(filter %.c,$(T))) $(filter %.sh,$(T))
+.PHONY: check check-built
+check: deps ## build and run the tests (SANITIZE=1: under the address and undefined sanitizers)
+	+@$(MAKE) --no-print-directory check-built
+check-built: $(TOOL_BIN) $(TEST_TOOL) $(filter $B/%,$(RUN_TESTS))
+	BUILD='$B' $(if $(SANITIZE),ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=tests/lib/lsan.supp:print_suppressions=0) \
+		prove -j$(PROVE_JOBS) $(RUN_TESTS)
+
+# Checks of the source text.
+C_FILES := $(wildcard common/*/*.[ch] tools/*/*.[ch] tests/*.[ch] tests/*/*.[ch])
+SH_FILES := $(wildcard *.sh .ci/run pipelines/*.sh tests/*.sh tests/*/*.sh)
+.PHONY: lint lint-text format
+lint: deps deps-lint ## clang-format, clang-tidy, cppcheck, shellcheck, mandoc, sizes
+	+@$(MAKE) --no-print-directory lint-text
+lint-text:
+	clang-format --dry-run -Werror $(C_FILES)
+	@awk 'FNR == 601 { print FILENAME ": more than 600 lines"; bad = 1 } END { exit bad }' $(C_FILES)
+	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
+		--suppress=missingIncludeSystem -I. -DPM_VERSION='""' common tools
+	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -n 4 clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option -- 2>/dev/null \
+		-std=c17 -D_POSIX_C_SOURCE=200809L -DPM_VERSION='""' -I. -isystem /usr/include/suitesparse $(patsubst -I%,-isystem %,$(HDF5_CFLAGS))
+	shellcheck -x $(SH_FILES)
+	mandoc -Tlint -Wwarning $(wildcard man/*.[1-9])
+format: ## lay out the C files with clang-format
+	clang-format -i $(C_FILES)
+
+.PHONY: install uninstall clean help
+CASES := $(wildcard data/cases/*.ini)
+MAN_PAGES := $(wildcard man/*.[1-9])
+share = $(DESTDIR)$(PREFIX)/share
+install: build ## install tools, pages and cases under $(DESTDIR)$(PREFIX)
+	install -d $(DESTDIR)$(PREFIX)/bin $(share)/pneumorph/cases
+	install -m 755 $(TOOL_BIN) $(DESTDIR)$(PREFIX)/bin
+	install -m 644 $(CASES) $(share)/pneumorph/cases
+	for page in $(MAN_PAGES); do install -D -m 644 -t $(share)/man/man$${page##*.} $$page || exit 1; done
+uninstall: ## remove what install wrote
+	rm -f $(TOOLS:%=$(DESTDIR)$(PREFIX)/bin/%)
+	for page in $(MAN_PAGES); do rm -f $(share)/man/man$${page##*.}/$${page##*/}; done
+	rm -rf $(share)/pneumorph
+clean: ## remove the build folders
+	rm -rf build build-*
+help: ## this list
+	@sed -n 's/^\([a-z][a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | sort | awk -F '\t' '{ printf "%-12s %s\n", $$1, $$2 }'
+
+include $(wildcard pipelines/*.mk)
 
 .PHONY: FORCE

@@ -1,0 +1,77 @@
+# TAP for shell tests: source it from a test that runs in the source root. `make check` sets BUILD; by hand
+# the default is the plain build. A test ends with `finish`; one that dies early prints no plan and fails.
+# shellcheck shell=bash
+set -u
+export LC_ALL=C
+BUILD=${BUILD:-build}
+# shellcheck disable=SC2034
+BIN=$BUILD/bin
+# shellcheck disable=SC2034
+LIB=$BUILD/tests/lib
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM
+count=0
+failed=0
+
+# result STATUS NAME: one check, good where STATUS is 0.
+result() {
+    count=$((count + 1))
+    if [ "$1" -eq 0 ]; then
+        echo "ok $count - $2"
+    else
+        echo "not ok $count - $2"
+        failed=$((failed + 1))
+    fi
+}
+
+# check NAME COMMAND..: the command succeeds.
+check() {
+    local name=$1 status=0
+    shift
+    "$@" >"$work/out" 2>"$work/err" || status=$?
+    result "$status" "$name"
+    [ "$status" -eq 0 ] || note "$*"
+}
+
+# expect STATUS NAME COMMAND..: the command ends with this exit status; its output is in $work/out and
+# $work/err.
+expect() {
+    local want=$1 name=$2 status=0
+    shift 2
+    "$@" >"$work/out" 2>"$work/err" || status=$?
+    result "$((status != want))" "$name"
+    if [ "$status" -ne "$want" ]; then
+        echo "# got status $status, want $want"
+        note "$*"
+    fi
+}
+
+# refused STATUS NAME PATTERN COMMAND..: ends with the status, says why in one line that matches, and leaves
+# nothing in $work/output (where the command should have written).
+refused() {
+    local want=$1 name=$2 pattern=$3 status=0 bad=0
+    shift 3
+    rm -rf "$work/output" && mkdir "$work/output"
+    "$@" >"$work/out" 2>"$work/err" || status=$?
+    [ "$status" -eq "$want" ] || bad=1
+    [ "$(grep -vc "^Try '" "$work/err")" -eq 1 ] || bad=1
+    grep -qE -- "$pattern" "$work/err" || bad=1
+    [ -z "$(ls -A "$work/output")" ] || bad=1
+    result "$bad" "$name"
+    if [ "$bad" -ne 0 ]; then
+        echo "# got status $status, want $want, one line like '$pattern' and no file; files: $(ls -A "$work/output")"
+        note "$*"
+    fi
+}
+
+# note COMMAND: how to repeat it and what it said.
+note() {
+    echo "# command: $1"
+    sed 's/^/# /' "$work/err"
+}
+
+finish() {
+    echo "1..$count"
+    exit "$((failed > 0))"
+}
