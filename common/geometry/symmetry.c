@@ -3,6 +3,10 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/base/memory.h"
+
+static const double TWO_PI = 6.283185307179586476925;
+
 /* y = Q x + t or, inverse, Q^T (x - t). Sums start at +0, so that sign flips are exact and no -0
  * appears. */
 static void transform(const struct pm_symmetry *y, ptrdiff_t g, int inverse, int moved,
@@ -101,4 +105,92 @@ double pm_symmetry_defect(const struct pm_surfaces *s, const double *phi)
                 fmax(defect, sqrt(image[0] * image[0] + image[1] * image[1] + image[2] * image[2]));
         }
     return defect;
+}
+
+/* The surface of a global control point. */
+static ptrdiff_t owner(const struct pm_surfaces *s, ptrdiff_t i)
+{
+    ptrdiff_t k = 0;
+
+    while (i >= s->offset[k + 1])
+        k++;
+    return k;
+}
+
+enum pm_status pm_symmetrise_reference(struct pm_surfaces *s, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    ptrdiff_t nops = s->pcase.symmetry.nops, N = s->offset[s->ns];
+    double *Phi = NULL;
+
+    PM_TRY(PM_NEW(Phi, 3 * N, err));
+    for (ptrdiff_t k = 0; k < s->ns; k++)
+        memcpy(&Phi[3 * s->offset[k]], s->s[k].Phi, 3 * (size_t)s->s[k].n * sizeof *Phi);
+    symmetrise(s, 0, Phi);
+    for (ptrdiff_t k = 0; k < s->ns; k++)
+        if (s->s[k].type == PM_SURFACE_SPHERE)
+            memcpy(s->s[k].Phi, &Phi[3 * s->offset[k]], 3 * (size_t)s->s[k].n * sizeof *Phi);
+    for (ptrdiff_t i = N - 1; i >= 0; i--) { /* the lowest of an orbit has the last word */
+        ptrdiff_t from = owner(s, i);
+        for (ptrdiff_t g = 0; g < nops; g++) {
+            ptrdiff_t j = s->perm[g * N + i], to = owner(s, j);
+            s->s[to].d0[j - s->offset[to]] = s->s[from].d0[i - s->offset[from]];
+        }
+    }
+done:
+    pm_free(Phi);
+    return status;
+}
+
+/* Control point (a, b) of the tube under Q, by the angle of a; -1 where the grid has no such point.
+ */
+static ptrdiff_t tube_image(const struct pm_surface *s, const double Q[9], ptrdiff_t i)
+{
+    double t = TWO_PI * (double)(i % s->nu) / (double)s->nu;
+    double u = Q[0] * cos(t) + Q[1] * sin(t), v = Q[3] * cos(t) + Q[4] * sin(t);
+    double a = atan2(v, u) / TWO_PI * (double)s->nu, whole = round(a);
+    ptrdiff_t b = i / s->nu;
+
+    if (fabs(a - whole) > 1e-6)
+        return -1;
+    return ((ptrdiff_t)whole + s->nu) % s->nu + s->nu * (Q[8] < 0 ? s->nv - 1 - b : b);
+}
+
+static ptrdiff_t closed_image(const struct pm_surface *to, const double x[3], double tolerance)
+{
+    for (ptrdiff_t j = 0; j < to->n; j++) {
+        const double *y = &to->phi[3 * j];
+        if (fabs(x[0] - y[0]) < tolerance && fabs(x[1] - y[1]) < tolerance &&
+            fabs(x[2] - y[2]) < tolerance)
+            return j;
+    }
+    return -1;
+}
+
+enum pm_status pm_symmetry_find(struct pm_surfaces *s, double tolerance, struct pm_err *err)
+{
+    const struct pm_symmetry *y = &s->pcase.symmetry;
+    enum pm_status status = PM_OK;
+    ptrdiff_t N = s->offset[s->ns];
+
+    pm_free(s->perm);
+    PM_TRY(PM_NEW(s->perm, y->nops * N, err));
+    for (ptrdiff_t g = 0; g < y->nops; g++)
+        for (ptrdiff_t i = 0; i < N; i++) {
+            ptrdiff_t k = owner(s, i), l = i - s->offset[k], to, j;
+            double image[3];
+            transform(y, g, 0, 1, &s->s[k].phi[3 * l], image);
+            to = k == 0 ? 0 : y->chamber[g][k - 1] + 1;
+            j = s->s[k].type == PM_SURFACE_BSPLINE ? tube_image(&s->s[k], y->Q[g], l)
+                                                   : closed_image(&s->s[to], image, tolerance);
+            if (j < 0)
+                PM_TRY(pm_fail(
+                    err, PM_INPUT,
+                    "control point %td of surface %td has no image under operation %td of the "
+                    "symmetry group",
+                    l, k, g));
+            s->perm[g * N + i] = (int32_t)(s->offset[to] + j);
+        }
+done:
+    return status;
 }

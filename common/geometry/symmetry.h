@@ -12,4 +12,11 @@ void pm_symmetrise_vectors(const struct pm_surfaces *s, double *v);
 /* Largest defect max |Q_g phi_i + t_g - phi_perm(i)| [mm]. */
 double pm_symmetry_defect(const struct pm_surfaces *s, const double *phi);
 
+/* Fills s->perm (new memory) for the operations of its case: B-spline control points by their indices, those of
+ * chambers by their places phi, which must match within `tolerance` [mm]. PM_INPUT naming the control point
+ * without an image. */
+enum pm_status pm_symmetry_find(struct pm_surfaces *s, double tolerance, struct pm_err *err);
+/* Makes Phi and d0 of the closed surfaces exact along the orbits, as pm_symmetrise_points does for phi. */
+enum pm_status pm_symmetrise_reference(struct pm_surfaces *s, struct pm_err *err);
+
 #endif

@@ -1,0 +1,145 @@
+#include "common/geometry/check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/geometry/curvature.h"
+
+struct field {
+    const struct pm_surfaces *s;
+    struct pm_samples m;
+    double *phi, *x, *normal; /* (N x 3), (n x 3), (n x 3) */
+};
+
+/* Signed distance of p from surface k, by its nearest sample: positive outside. */
+static double side(const struct field *f, ptrdiff_t k, const double p[3])
+{
+    double best = INFINITY, sign = 0;
+
+    for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i++) {
+        const double *x = &f->x[3 * i], *n = &f->normal[3 * i];
+        double d[3] = {p[0] - x[0], p[1] - x[1], p[2] - x[2]};
+        double d2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        if (d2 >= best)
+            continue;
+        best = d2;
+        sign = d[0] * n[0] + d[1] * n[1] + d[2] * n[2];
+    }
+    return copysign(sqrt(best), sign);
+}
+
+/* Every fourth sample of chamber k against the exterior and the other chambers; the wall test finds
+ * what lies between. */
+static enum pm_status contained(const struct field *f, ptrdiff_t k, struct pm_err *err)
+{
+    double H = f->s->pcase.height;
+
+    for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i += 4) {
+        const double *p = &f->x[3 * i];
+        if (p[2] <= 0 || p[2] >= H || side(f, 0, p) >= 0)
+            return pm_fail(err, PM_INPUT, "chamber %td leaves the body at (%.4g, %.4g, %.4g)", k,
+                           p[0], p[1], p[2]);
+        for (ptrdiff_t l = 1; l < f->s->ns; l++)
+            if (l != k && side(f, l, p) <= 0)
+                return pm_fail(err, PM_INPUT, "chambers %td and %td meet at (%.4g, %.4g, %.4g)", k,
+                               l, p[0], p[1], p[2]);
+    }
+    return PM_OK;
+}
+
+static enum pm_status walls(const struct field *f, struct pm_check *c, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_case *pc = &f->s->pcase;
+    struct pm_approach *near = NULL;
+    ptrdiff_t ns = f->s->ns;
+
+    PM_TRY(PM_NEW(near, ns * ns, err));
+    PM_TRY(pm_distance_nearest(f->s, &f->m, 2 * pc->wall_min, INFINITY, near, err));
+    c->wall.distance = INFINITY;
+    for (ptrdiff_t k = 0; k < ns * ns; k++)
+        if (near[k].distance < c->wall.distance)
+            c->wall = near[k];
+    if (c->wall.distance < pc->wall_min)
+        PM_TRY(
+            pm_fail(err, PM_INPUT,
+                    "wall between surfaces %d and %d is %.4g at (%.4g, %.4g, %.4g), expected >= %g",
+                    c->wall.a, c->wall.b, c->wall.distance, c->wall.x[0], c->wall.x[1],
+                    c->wall.x[2], pc->wall_min));
+    c->cap = INFINITY;
+    for (ptrdiff_t i = f->m.first[1]; i < f->m.n; i++) {
+        const double *p = &f->x[3 * i];
+        c->cap = fmin(c->cap, fmin(p[2], pc->height - p[2]));
+        if (c->cap < pc->cap_min)
+            PM_TRY(pm_fail(err, PM_INPUT,
+                           "chamber %d comes within %.4g of an end plane at (%.4g, %.4g, %.4g), "
+                           "expected >= %g",
+                           f->m.surface[i], c->cap, p[0], p[1], p[2], pc->cap_min));
+    }
+done:
+    pm_free(near);
+    return status;
+}
+
+static enum pm_status maps(const struct field *f, ptrdiff_t k, struct pm_check *c,
+                           struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_map *map = NULL;
+    struct pm_basis work = {0};
+    struct pm_curvature g;
+    double r_a[6], r_ab[9], Z;
+
+    PM_TRY(pm_map_new(&f->s->s[k], &map, err));
+    for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i++) {
+        const double *p = &f->x[3 * i];
+        PM_TRY(pm_map_coverage(map, &f->m.S[3 * i], &work, &Z, err));
+        pm_samples_at(&f->m, i, f->phi, NULL, r_a, r_ab);
+        pm_curvature_at(r_a, r_ab, &g);
+        c->coverage = fmin(c->coverage, Z);
+        if (Z < 1)
+            PM_TRY(pm_fail(
+                err, PM_INPUT,
+                "surface %td has a hole in its cover at (%.4g, %.4g, %.4g): sum of kernels %.3g, "
+                "expected >= 1",
+                k, p[0], p[1], p[2], Z));
+        if (!isfinite(g.Q))
+            PM_TRY(pm_fail(err, PM_INPUT, "surface %td folds at (%.4g, %.4g, %.4g)", k, p[0], p[1],
+                           p[2]));
+        if (sqrt(g.Q) > c->curvature) {
+            c->curvature = sqrt(g.Q);
+            memcpy(c->curvature_x, p, sizeof c->curvature_x);
+        }
+    }
+done:
+    pm_map_free(map);
+    pm_basis_release(&work);
+    return status;
+}
+
+enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *check,
+                                 struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct field f = {.s = s};
+
+    *check = (struct pm_check){.coverage = INFINITY};
+    PM_TRY(pm_samples_new(s, s->pcase.wall_min / 2, 1, &f.m, err));
+    PM_TRY(PM_NEW(f.phi, 3 * s->offset[s->ns], err));
+    PM_TRY(PM_NEW(f.x, 3 * f.m.n, err));
+    PM_TRY(PM_NEW(f.normal, 3 * f.m.n, err));
+    pm_surfaces_gather(s, f.phi);
+    pm_samples_all(&f.m, f.phi, f.x, f.normal);
+    for (ptrdiff_t k = 0; k < s->ns; k++)
+        PM_TRY(maps(&f, k, check, err));
+    for (ptrdiff_t k = 1; k < s->ns; k++)
+        PM_TRY(contained(&f, k, err));
+    PM_TRY(walls(&f, check, err));
+done:
+    pm_samples_release(&f.m);
+    pm_free(f.phi);
+    pm_free(f.x);
+    pm_free(f.normal);
+    return status;
+}

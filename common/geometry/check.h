@@ -1,0 +1,20 @@
+/* Is a set of surfaces a robot? Walls, containment, coverage, folds, curvature. */
+#ifndef PM_CHECK_H
+#define PM_CHECK_H
+
+#include "common/geometry/distance.h"
+
+struct pm_check {
+    struct pm_approach wall;      /* closest approach of two distinct surfaces [mm] */
+    double cap;                   /* least distance of a chamber from the planes z = 0 and z = H [mm] */
+    double coverage;              /* least sum of kernels over the samples of the chambers */
+    double curvature;             /* largest sqrt(c1^2 + c2^2) over the samples [1/mm] */
+    double curvature_x[3];        /* where [mm] */
+};
+
+/* Samples at spacing <= wall_min / 2. Refuses (PM_INPUT, with the position): chambers that leave the body or
+ * meet each other, walls thinner than wall_min, caps thinner than cap_min, holes in the cover (sum of kernels
+ * < 1), folds of a map. Curvature is only measured. */
+enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *check, struct pm_err *err);
+
+#endif

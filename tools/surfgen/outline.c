@@ -1,0 +1,211 @@
+#include "tools/surfgen/outline.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "tools/surfgen/profile.h"
+
+static const double TWO_PI = 6.283185307179586476925;
+
+enum { LEVELS = 801, POINTS = 720, MAX_STEPS = 20000 };
+
+static const double STEP = 0.1;   /* of the tracing [mm] */
+static const double FILLET = 6.0; /* reach of the blend between two parts [mm] */
+
+struct pm_outline {
+    double height;
+    double *xy; /* (LEVELS x POINTS x 2) [mm] */
+};
+
+/* Distance of p from a part with its gradient: f, df/dx, df/dy. */
+struct level {
+    double f, d[2];
+};
+
+static struct level disc(const double p[2], const double centre[2], double radius)
+{
+    double d[2] = {p[0] - centre[0], p[1] - centre[1]}, len = fmax(hypot(d[0], d[1]), 1e-12);
+
+    return (struct level){len - radius, {d[0] / len, d[1] / len}};
+}
+
+static struct level web(const double p[2], const double end[2], double half)
+{
+    double len2 = end[0] * end[0] + end[1] * end[1];
+    double t = len2 > 0 ? fmin(fmax((p[0] * end[0] + p[1] * end[1]) / len2, 0), 1) : 0;
+    double foot[2] = {t * end[0], t * end[1]};
+
+    return disc(p, foot, half);
+}
+
+/* Smooth minimum, cubic in the difference: never above either, C^2. */
+static struct level join(struct level a, struct level b)
+{
+    double h = fmax(FILLET - fabs(a.f - b.f), 0) / FILLET, w = h * h / 2;
+    struct level low = a.f < b.f ? a : b, high = a.f < b.f ? b : a;
+
+    return (struct level){low.f - h * h * h * FILLET / 6,
+                          {(1 - w) * low.d[0] + w * high.d[0], (1 - w) * low.d[1] + w * high.d[1]}};
+}
+
+/* Chambers on one axis share the larger disc. */
+static struct level body(const struct pm_case *c, const double *radius, const double p[2])
+{
+    struct level all = {INFINITY, {0}};
+
+    if (c->body == PM_BODY_CYLINDER)
+        return disc(p, (const double[2]){0, 0}, c->body_radius);
+    for (ptrdiff_t k = 0; k < c->nchambers; k++) {
+        struct level own = disc(p, c->chamber[k].center, radius[k]);
+        int seen = 0;
+        for (ptrdiff_t l = 0; l < c->nchambers; l++) {
+            const double *a = c->chamber[k].center, *b = c->chamber[l].center;
+            seen |= hypot(a[0] - b[0], a[1] - b[1]) < 1e-9 &&
+                    (radius[l] > radius[k] || (l < k && radius[l] == radius[k]));
+        }
+        if (seen)
+            continue;
+        if (c->web > 0)
+            own = join(own, web(p, c->chamber[k].center, c->web));
+        all = isfinite(all.f) ? join(all, own) : own;
+    }
+    return all;
+}
+
+/* Radius of the offset of the profile by `wall` at height z: max over u of r(u) + sqrt(wall^2 -
+ * (z-u)^2). */
+static double offset(const struct pm_chamber *c, double wall, double z)
+{
+    double best = 0;
+
+    for (int i = -200; i <= 200; i++) {
+        double u = wall * i / 200;
+        best = fmax(best, pm_profile_outer(c, z - c->center[2] + u) + sqrt(wall * wall - u * u));
+    }
+    return best;
+}
+
+/* One Newton step to the curve along the gradient. */
+static double correct(const struct pm_case *c, const double *radius, double p[2], double tangent[2])
+{
+    struct level b = body(c, radius, p);
+    double g = b.d[0] * b.d[0] + b.d[1] * b.d[1];
+
+    p[0] -= b.f * b.d[0] / g;
+    p[1] -= b.f * b.d[1] / g;
+    tangent[0] = -b.d[1] / sqrt(g);
+    tangent[1] = b.d[0] / sqrt(g);
+    return fabs(b.f) / sqrt(g);
+}
+
+/* Follows the curve once around from the +x axis into path; returns its points, 0 where it does not
+ * close. */
+static ptrdiff_t trace(const struct pm_case *c, const double *radius, double *path)
+{
+    double p[2] = {4 * c->height, 0}, t[2], turned = 0;
+    ptrdiff_t n = 0;
+
+    do { /* the outermost crossing of the +x axis */
+        p[0] -= 5 * STEP;
+        if (p[0] < 0)
+            return 0;
+    } while (body(c, radius, p).f > 0);
+    while (correct(c, radius, p, t) > 1e-10 && n < 50)
+        n++;
+    n = 0;
+    while (n < MAX_STEPS) {
+        double before = atan2(p[1], p[0]), step;
+        memcpy(&path[2 * n++], p, sizeof p);
+        correct(c, radius, p, t);
+        p[0] += STEP * t[0];
+        p[1] += STEP * t[1];
+        for (int it = 0; it < 8 && correct(c, radius, p, t) > 1e-10; it++)
+            ;
+        step = atan2(p[1], p[0]) - before;
+        step -= TWO_PI * round(step / TWO_PI);
+        turned += step;
+        if (turned >= TWO_PI - 1e-9)
+            return n;
+    }
+    return 0;
+}
+
+/* Points uniform in arc length on the closed polygon of n points. */
+static void resample(const double *path, ptrdiff_t n, double *out)
+{
+    double total = 0, done = 0;
+    ptrdiff_t at = 0, k = 0;
+
+    for (ptrdiff_t i = 0; i < n; i++) {
+        const double *a = &path[2 * i], *b = &path[2 * ((i + 1) % n)];
+        total += hypot(b[0] - a[0], b[1] - a[1]);
+    }
+    while (k < POINTS) {
+        const double *a = &path[2 * at], *b = &path[2 * ((at + 1) % n)];
+        double len = hypot(b[0] - a[0], b[1] - a[1]), w = (total * (double)k / POINTS - done) / len;
+        if (w > 1 && at + 1 < n) {
+            done += len;
+            at++;
+            continue;
+        }
+        out[2 * k] = a[0] + w * (b[0] - a[0]);
+        out[2 * k + 1] = a[1] + w * (b[1] - a[1]);
+        k++;
+    }
+}
+
+enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_outline *o = NULL;
+    double *path = NULL, radius[PM_MAX_CHAMBERS] = {0};
+
+    *out = NULL;
+    PM_TRY(PM_NEW(o, 1, err));
+    o->height = c->height;
+    PM_TRY(PM_NEW(o->xy, 2 * LEVELS * POINTS, err));
+    PM_TRY(PM_NEW(path, 2 * MAX_STEPS, err));
+    for (ptrdiff_t level = 0; level < LEVELS; level++) {
+        double z = c->height * (double)level / (LEVELS - 1);
+        ptrdiff_t n;
+        for (ptrdiff_t k = 0; k < c->nchambers; k++)
+            radius[k] = offset(&c->chamber[k], c->wall, z);
+        n = trace(c, radius, path);
+        if (n < 8)
+            PM_TRY(pm_fail(
+                err, PM_INPUT,
+                "cross-section of the body at z = %.4g is not one closed curve about the axis "
+                "(wall %g, web %g)",
+                z, c->wall, c->web));
+        resample(path, n, &o->xy[2 * POINTS * level]);
+    }
+    *out = o;
+    o = NULL;
+done:
+    pm_outline_free(o);
+    pm_free(path);
+    return status;
+}
+
+void pm_outline_free(struct pm_outline *o)
+{
+    if (o == NULL)
+        return;
+    pm_free(o->xy);
+    pm_free(o);
+}
+
+void pm_outline_point(const struct pm_outline *o, double turn, double z, double x[3])
+{
+    double l = fmin(fmax(z / o->height, 0), 1) * (LEVELS - 1), a = (turn - floor(turn)) * POINTS;
+    ptrdiff_t i = (ptrdiff_t)fmin(l, LEVELS - 2), j = (ptrdiff_t)a % POINTS;
+    double w = l - (double)i, u = a - floor(a);
+
+    for (int k = 0; k < 2; k++) {
+        const double *low = &o->xy[2 * POINTS * i + k], *high = low + 2 * POINTS;
+        ptrdiff_t p = 2 * j, q = 2 * ((j + 1) % POINTS);
+        x[k] = (1 - w) * ((1 - u) * low[p] + u * low[q]) + w * ((1 - u) * high[p] + u * high[q]);
+    }
+    x[2] = z;
+}

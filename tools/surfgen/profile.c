@@ -1,0 +1,165 @@
+#include "tools/surfgen/profile.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+
+static const double PI = 3.141592653589793238463;
+
+/* Height of an end cap: bellows end in flat half ellipsoids, which leaves length to the waves. */
+static double cap_height(const struct pm_chamber *c)
+{
+    switch (c->shape) {
+    case PM_SHAPE_CAPSULE:
+        return c->radius;
+    case PM_SHAPE_BELLOWS:
+        return 0.6 * c->radius;
+    default: /* sphere, ellipsoid: nothing but caps */
+        return c->shape == PM_SHAPE_SPHERE ? c->radius : c->length / 2;
+    }
+}
+
+/* Half of the part between the caps. */
+static double half_straight(const struct pm_chamber *c)
+{
+    if (c->shape == PM_SHAPE_SPHERE || c->shape == PM_SHAPE_ELLIPSOID)
+        return 0;
+    return c->length / 2 - cap_height(c);
+}
+
+/* Crest in the middle; fades out over half a pitch before the caps (C^2). */
+static double wave(const struct pm_chamber *c, double z)
+{
+    double f;
+
+    if (c->shape != PM_SHAPE_BELLOWS || c->amplitude == 0)
+        return 0;
+    f = fmin(fmax((half_straight(c) - fabs(z)) / (c->pitch / 2), 0), 1);
+    return c->amplitude * cos(2 * PI * z / c->pitch) * f * f * f * (10 - f * (15 - 6 * f));
+}
+
+double pm_profile_outer(const struct pm_chamber *c, double z)
+{
+    return c->radius + wave(c, z);
+}
+
+/* u in [0, 1] from the lower pole to the middle: the cap by its angle, then the straight part. */
+static void lower_half(const struct pm_chamber *c, double u, double *r, double *z)
+{
+    double cap = cap_height(c), half = half_straight(c), arc = PI / 4 * (cap + c->radius);
+    double split = arc / (arc + half);
+
+    if (u <= split) {
+        double a = PI / 2 * u / split;
+        *r = u > 0 ? c->radius * sin(a) : 0;
+        *z = -half - cap * cos(a);
+    } else {
+        *z = -half * (1 - u) / (1 - split);
+        *r = c->radius + wave(c, *z);
+    }
+}
+
+static void integrate(struct pm_profile *p)
+{
+    ptrdiff_t mid = p->n / 2;
+
+    for (ptrdiff_t i = 1; i < p->n; i++)
+        p->s[i] = p->s[i - 1] + hypot(p->r[i] - p->r[i - 1], p->z[i] - p->z[i - 1]);
+    for (ptrdiff_t i = mid + 1; i < p->n; i++) { /* r is linear in s on a segment */
+        double a = p->r[i - 1], b = p->r[i], ds = p->s[i] - p->s[i - 1];
+        double mean = fabs(b - a) < 1e-6 * a ? (a + b) / 2 : (b - a) / log(b / a);
+        p->psi[i] = b > 0 ? p->psi[i - 1] + ds / mean : HUGE_VAL;
+    }
+    for (ptrdiff_t i = 0; i < mid; i++)
+        p->psi[i] = -p->psi[p->n - 1 - i];
+}
+
+static enum pm_status check(const struct pm_chamber *c, struct pm_err *err)
+{
+    if (half_straight(c) < 0)
+        return pm_fail(err, PM_INPUT, "chamber of radius %g has length %g, expected at least %g",
+                       c->radius, c->length, 2 * cap_height(c));
+    if (c->shape == PM_SHAPE_BELLOWS && !(c->amplitude < c->radius && c->amplitude >= 0))
+        return pm_fail(err, PM_INPUT, "bellows of radius %g has amplitude %g, expected 0 to %g",
+                       c->radius, c->amplitude, c->radius);
+    return PM_OK;
+}
+
+enum pm_status pm_profile_new(const struct pm_chamber *c, struct pm_profile *p, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    ptrdiff_t half;
+
+    memset(p, 0, sizeof *p);
+    PM_TRY(check(c, err));
+    half = (ptrdiff_t)fmin(1e5, 1000 + 50 * fmax(c->length, c->radius));
+    p->n = 2 * half + 1;
+    PM_TRY(PM_NEW(p->r, p->n, err));
+    PM_TRY(PM_NEW(p->z, p->n, err));
+    PM_TRY(PM_NEW(p->s, p->n, err));
+    PM_TRY(PM_NEW(p->psi, p->n, err));
+    for (ptrdiff_t i = 0; i <= half; i++) {
+        ptrdiff_t j = p->n - 1 - i;
+        lower_half(c, (double)i / (double)half, &p->r[i], &p->z[i]);
+        p->r[j] = p->r[i];
+        p->z[j] = -p->z[i];
+    }
+    p->z[half] = 0;
+    integrate(p);
+done:
+    if (status != PM_OK)
+        pm_profile_release(p);
+    return status;
+}
+
+void pm_profile_release(struct pm_profile *p)
+{
+    pm_free(p->r);
+    pm_free(p->z);
+    pm_free(p->s);
+    pm_free(p->psi);
+    memset(p, 0, sizeof *p);
+}
+
+/* Segment i of an ascending table with table[i] <= v <= table[i + 1]. */
+static ptrdiff_t segment(const double *table, ptrdiff_t n, double v)
+{
+    ptrdiff_t lo = 0, hi = n - 1;
+
+    while (hi - lo > 1) {
+        ptrdiff_t mid = (lo + hi) / 2;
+        *(table[mid] <= v ? &lo : &hi) = mid;
+    }
+    return lo;
+}
+
+void pm_profile_at_arc(const struct pm_profile *p, double s, double *r, double *z, double *psi)
+{
+    ptrdiff_t i = segment(p->s, p->n, s);
+    double w = (s - p->s[i]) / (p->s[i + 1] - p->s[i]);
+
+    *r = (1 - w) * p->r[i] + w * p->r[i + 1];
+    *z = (1 - w) * p->z[i] + w * p->z[i + 1];
+    *psi = w <= 0 ? p->psi[i] : w >= 1 ? p->psi[i + 1] : (1 - w) * p->psi[i] + w * p->psi[i + 1];
+}
+
+void pm_profile_point(const struct pm_profile *p, const double S[3], double x[3])
+{
+    double rho = hypot(S[0], S[1]), psi = rho > 0    ? asinh(S[2] / rho)
+                                          : S[2] > 0 ? HUGE_VAL
+                                                     : -HUGE_VAL;
+    ptrdiff_t i = segment(p->psi, p->n, psi);
+    double a = p->psi[i], b = p->psi[i + 1], w;
+
+    if (isfinite(a) && isfinite(b)) {
+        w = (psi - a) / (b - a);
+    } else { /* a flat disc about a pole: r falls like exp(-|psi|) */
+        w = isfinite(b) ? exp(psi - b) : exp(a - psi);
+        w = isfinite(b) ? w : 1 - w;
+    }
+    x[2] = (1 - w) * p->z[i] + w * p->z[i + 1];
+    w = (1 - w) * p->r[i] + w * p->r[i + 1];
+    x[0] = rho > 0 ? w * S[0] / rho : 0;
+    x[1] = rho > 0 ? w * S[1] / rho : 0;
+}

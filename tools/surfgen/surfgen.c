@@ -1,0 +1,187 @@
+#include "tools/surfgen/surfgen.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/base/log.h"
+#include "common/base/memory.h"
+#include "common/geometry/check.h"
+#include "common/geometry/fit.h"
+#include "common/geometry/samples.h"
+#include "common/geometry/symmetry.h"
+#include "tools/surfgen/body.h"
+#include "tools/surfgen/chamber.h"
+
+/* What the surfaces are made from. */
+struct plan {
+    const struct pm_case *c;
+    struct pm_outline *outline;
+    struct pm_profile profile[PM_MAX_CHAMBERS];
+};
+
+/* Points per ring: even, and a multiple of 12 where an operation other than a mirror or flip keeps
+ * the chamber. */
+static ptrdiff_t ring_multiple(const struct pm_symmetry *y, ptrdiff_t k)
+{
+    for (ptrdiff_t g = 0; g < y->nops; g++)
+        if (y->chamber[g][k] == k && y->Q[g][1] != 0)
+            return 12;
+    return 2;
+}
+
+/* Surface k + 1: the image of an earlier chamber where there is one. */
+static enum pm_status seed_chamber(const struct plan *p, ptrdiff_t k, struct pm_surfaces *s,
+                                   struct pm_err *err)
+{
+    const struct pm_symmetry *y = &p->c->symmetry;
+
+    for (ptrdiff_t r = 0; r < k; r++)
+        for (ptrdiff_t g = 0; g < y->nops; g++)
+            if (y->chamber[g][r] == k)
+                return pm_chamber_image(&s->s[r + 1], y->Q[g], y->t[g], &s->s[k + 1], err);
+    return pm_chamber_seed(&p->c->chamber[k], &p->profile[k], ring_multiple(y, k), &s->s[k + 1],
+                           err);
+}
+
+static enum pm_status seed(struct plan *p, struct pm_surfaces *s, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_case *c = p->c;
+
+    PM_TRY(pm_case_copy(c, &s->pcase, err));
+    s->ns = 1 + c->nchambers;
+    PM_TRY(PM_NEW(s->s, s->ns, err));
+    PM_TRY(PM_NEW(s->offset, s->ns + 1, err));
+    PM_TRY(pm_outline_new(c, &p->outline, err));
+    PM_TRY(pm_body_seed(c, p->outline, &s->s[0], err));
+    for (ptrdiff_t k = 0; k < c->nchambers; k++) {
+        PM_TRY(pm_profile_new(&c->chamber[k], &p->profile[k], err));
+        PM_TRY(seed_chamber(p, k, s, err));
+    }
+    for (ptrdiff_t k = 0; k < s->ns; k++)
+        s->offset[k + 1] = s->offset[k] + s->s[k].n;
+    PM_TRY(pm_symmetry_find(s, 1e-6 * c->height, err));
+    for (ptrdiff_t k = 1; k < s->ns; k++)
+        PM_TRY(pm_map_support(s->s[k].n, s->s[k].Phi, PM_MAP_NEIGHBOURS, s->s[k].d0, err));
+    PM_TRY(pm_symmetrise_reference(s, err));
+    s->reference_point[2] = c->height;
+done:
+    return status;
+}
+
+static void target(const struct plan *p, ptrdiff_t k, const double S[3], double x[3])
+{
+    if (k == 0) {
+        pm_body_point(p->c, p->outline, S, x);
+        return;
+    }
+    pm_profile_point(&p->profile[k - 1], S, x);
+    for (int j = 0; j < 3; j++)
+        x[j] += p->c->chamber[k - 1].center[j];
+}
+
+/* Fits surface k to its shape. The heights of the exterior's rows are exact already: z is linear in
+ * v. */
+static enum pm_status fit(const struct plan *p, struct pm_surfaces *s, const struct pm_samples *m,
+                          ptrdiff_t k, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_surface *f = &s->s[k];
+    ptrdiff_t first = m->first[k], nq = m->first[k + 1] - first;
+    struct pm_map *map = NULL;
+    uint8_t *fixed = NULL;
+    double *x = NULL, error[2];
+
+    PM_TRY(pm_map_new(f, &map, err));
+    PM_TRY(PM_NEW(x, 3 * nq, err));
+    PM_TRY(PM_NEW(fixed, 3 * f->n, err));
+    for (ptrdiff_t q = 0; q < nq; q++)
+        target(p, k, &m->S[3 * (first + q)], &x[3 * q]);
+    for (ptrdiff_t i = 0; i < f->n; i++)
+        fixed[3 * i + 2] = k == 0;
+    const struct pm_fit job = {.nq = nq,
+                               .S = &m->S[3 * first],
+                               .weight = &m->area[first],
+                               .target = x,
+                               .alpha = k == 0 ? 1e-3 : 0.1,
+                               .iterations = 20,
+                               .fixed = fixed};
+    PM_TRY(pm_fit_points(map, f->n, &job, f->phi, error, err));
+    pm_log(1, "surface %td: %td control points, fit error rms %.4f max %.4f mm", k, f->n, error[0],
+           error[1]);
+done:
+    pm_map_free(map);
+    pm_free(x);
+    pm_free(fixed);
+    return status;
+}
+
+static enum pm_status finish(struct pm_surfaces *s, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_check check;
+    double *phi = NULL;
+
+    PM_TRY(PM_NEW(phi, 3 * s->offset[s->ns], err));
+    pm_surfaces_gather(s, phi);
+    pm_symmetrise_points(s, phi);
+    pm_surfaces_scatter(s, phi);
+    PM_TRY(pm_surfaces_check(s, &check, err));
+    pm_log(1, "least wall %.3f between surfaces %d and %d at (%.4g, %.4g, %.4g), least cap %.3f mm",
+           check.wall.distance, check.wall.a, check.wall.b, check.wall.x[0], check.wall.x[1],
+           check.wall.x[2], check.cap);
+    pm_log(1,
+           "largest curvature %.3f /mm at (%.4g, %.4g, %.4g), least cover %.2f, symmetry defect "
+           "%.1e mm",
+           check.curvature, check.curvature_x[0], check.curvature_x[1], check.curvature_x[2],
+           check.coverage, pm_symmetry_defect(s, phi));
+    if (check.curvature > s->pcase.curvature_max)
+        pm_warn("largest curvature %.3g /mm at (%.4g, %.4g, %.4g) is above curvature_max %g",
+                check.curvature, check.curvature_x[0], check.curvature_x[1], check.curvature_x[2],
+                s->pcase.curvature_max);
+done:
+    pm_free(phi);
+    return status;
+}
+
+enum pm_status pm_surfgen(const struct pm_case *c, struct pm_surfaces *s, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct plan p = {.c = c};
+    struct pm_samples m = {0};
+
+    memset(s, 0, sizeof *s);
+    PM_TRY(seed(&p, s, err));
+    PM_TRY(pm_samples_new(s, INFINITY, 2, &m, err));
+    for (ptrdiff_t k = 0; k < s->ns; k++)
+        PM_TRY(fit(&p, s, &m, k, err));
+    PM_TRY(finish(s, err));
+done:
+    pm_outline_free(p.outline);
+    for (ptrdiff_t k = 0; k < PM_MAX_CHAMBERS; k++)
+        pm_profile_release(&p.profile[k]);
+    pm_samples_release(&m);
+    if (status != PM_OK)
+        pm_surfaces_release(s);
+    return status;
+}
+
+enum pm_status surfgen_run(const struct pm_common *common, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0};
+    struct pm_h5 *f = NULL;
+
+    PM_TRY(pm_case_load(common->operands[0], &c, err));
+    PM_TRY(pm_surfgen(&c, &s, err));
+    PM_TRY(pm_h5_create(common->output, "surface", common, NULL, &f, err));
+    PM_TRY(pm_surfaces_write(f, &s, err));
+    status = pm_h5_commit(f, err);
+    f = NULL;
+done:
+    pm_h5_close(f);
+    pm_surfaces_release(&s);
+    pm_case_release(&c);
+    return status;
+}
