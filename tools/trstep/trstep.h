@@ -1,0 +1,26 @@
+/* One step of the trust-region method: judge the trial, adapt, propose the next surfaces. */
+#ifndef TRSTEP_H
+#define TRSTEP_H
+
+#include "common/base/tool.h"
+#include "common/files/step.h"
+#include "tools/trstep/trust.h"
+
+struct trstep_opts {
+    const char *previous; /* step file that proposed this trial, NULL at the first design */
+    const char *history;  /* step file whose history is printed */
+    int judge;            /* print accept or reject only */
+};
+
+/* Operands SURF WORK SENS.. (the sens files of an accepted trial: every Gauss point once; none for
+ * a rejected one). PM_NUMERIC if the first design itself failed. */
+enum pm_status trstep_run(const struct trstep_opts *opts, const struct pm_common *common,
+                          struct pm_err *err);
+
+/* Proposes from step->accepted, value, gradient, weight, radius: fills trial, gain, penalties,
+ * lengths; lowers the weights where the constraints would leave the measure no gain. verdict
+ * becomes stalled where no step gains merit; then, and where it is not "continue" already, the
+ * trial is the accepted design. */
+enum pm_status trstep_propose(struct pm_step *step, struct pm_err *err);
+
+#endif

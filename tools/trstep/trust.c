@@ -1,0 +1,68 @@
+#include "tools/trstep/trust.h"
+
+#include <math.h>
+#include <stdio.h>
+
+enum { WINDOW = 5 }; /* accepted trials of the convergence test (paper) */
+
+double trust_merit(double value, const double weight[2], const double penalty[2])
+{
+    return value - weight[0] * penalty[0] - weight[1] * penalty[1];
+}
+
+void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j)
+{
+    *j = (struct judgement){.accepted = 0};
+    if (work->failure[0] != '\0') {
+        snprintf(j->reason, sizeof j->reason, "%.150s", work->failure);
+        return;
+    }
+    if (previous == NULL) {
+        j->accepted = 1;
+        return;
+    }
+    const double before = trust_merit(previous->value, previous->weight, previous->penalty);
+    const double after = trust_merit(work->value, previous->weight, previous->trial_penalty);
+    const double promised =
+        trust_merit(previous->value + previous->gain, previous->weight, previous->trial_penalty) -
+        before;
+    j->ratio = promised > 0 ? (after - before) / promised : 0;
+    if (!(work->value > previous->value))
+        snprintf(j->reason, sizeof j->reason, "the measure fell by %.3g %%",
+                 100 * (1 - work->value / previous->value));
+    else if (!(j->ratio >= 0.1))
+        snprintf(j->reason, sizeof j->reason,
+                 "the merit rose by %.2g of the prediction, expected 0.1", j->ratio);
+    else
+        j->accepted = 1;
+}
+
+double trust_radius(const struct pm_step *previous, const struct judgement *j)
+{
+    const struct pm_case *c = &previous->trial.pcase;
+    const double bound =
+        fmax(previous->rms_step / previous->radius, previous->max_step / (2 * previous->radius));
+    if (!j->accepted)
+        return previous->radius / 3;
+    if (j->ratio < 0.3)
+        return previous->radius / 1.5;
+    if (j->ratio > 0.75 && bound > 0.95)
+        return fmin(previous->radius * 1.5, c->radius_max);
+    return previous->radius;
+}
+
+const char *trust_verdict(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_t n,
+                          double radius)
+{
+    double last = 0, early = 0;
+    int count = 0;
+    for (ptrdiff_t i = n - 1; i >= 0 && count <= WINDOW; i--)
+        if (trials[i].accepted) {
+            last = count == 0 ? trials[i].measure : last;
+            early = trials[i].measure;
+            count++;
+        }
+    if (count > WINDOW && trials[n - 1].accepted && fabs(last - early) < c->tolerance * fabs(last))
+        return "converged";
+    return radius < c->radius / 100 ? "stalled" : "continue";
+}

@@ -1,0 +1,27 @@
+/* Decisions of the trust region [theory 8]: accept or reject, radius, penalty weights, verdict. */
+#ifndef TRSTEP_TRUST_H
+#define TRSTEP_TRUST_H
+
+#include "common/files/step.h"
+#include "common/files/work.h"
+
+struct judgement {
+    int accepted;
+    double ratio;     /* actual over predicted gain of merit, 0 where there is none */
+    char reason[160]; /* of a rejection, "" */
+};
+
+/* previous NULL: the first design, accepted unless it records a failure. Otherwise accepted if T
+ * itself rose and the merit rose by at least a tenth of the prediction. */
+void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j);
+/* Radius after a judged trial: ratio below 0.1 or rejected: a third; up to 0.3: 1/1.5; above 0.75
+ * with the step at a bound: 1.5 times, at most radius_max of the case. */
+double trust_radius(const struct pm_step *previous, const struct judgement *j);
+/* "converged": T changed by less than the tolerance over five accepted trials; "stalled": the
+ * radius is below a hundredth of its start; "continue". */
+const char *trust_verdict(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_t n,
+                          double radius);
+/* T - rho_c C_c - rho_t C_t. */
+double trust_merit(double value, const double weight[2], const double penalty[2]);
+
+#endif
