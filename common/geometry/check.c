@@ -94,7 +94,9 @@ static enum pm_status maps(const struct field *f, ptrdiff_t k, struct pm_check *
     PM_TRY(pm_map_new(&f->s->s[k], &map, err));
     for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i++) {
         const double *p = &f->x[3 * i];
-        PM_TRY(pm_map_coverage(map, &f->m.S[3 * i], &work, &Z, err));
+        Z = INFINITY; /* the tube covers by construction */
+        if (f->s->s[k].type == PM_SURFACE_SPHERE)
+            PM_TRY(pm_map_coverage(map, &f->m.S[3 * i], &work, &Z, err));
         pm_samples_at(&f->m, i, f->phi, NULL, r_a, r_ab);
         pm_curvature_at(r_a, r_ab, &g);
         c->coverage = fmin(c->coverage, Z);

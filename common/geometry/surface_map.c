@@ -361,8 +361,8 @@ enum pm_status pm_map_coverage(const struct pm_map *map, const double S[3], stru
     double t[6] = {0}, C[6];
     enum pm_status status = reserve(work, map->n, err);
 
-    *Z = map->type == PM_SURFACE_BSPLINE;
-    if (status != PM_OK || map->type == PM_SURFACE_BSPLINE)
+    *Z = 0;
+    if (status != PM_OK)
         return status;
     work->n = pm_balls_query(map->balls, S, work->id);
     for (ptrdiff_t k = 0; k < work->n; k++) {

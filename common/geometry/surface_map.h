@@ -39,7 +39,7 @@ void pm_map_middle(int32_t type, const double a[3], const double b[3], double ou
 
 /* d0 (n): chord distance to the k-th nearest other control point [eq 56]. Cost n^2. */
 enum pm_status pm_map_support(ptrdiff_t n, const double *Phi, ptrdiff_t k, double *d0, struct pm_err *err);
-/* Sum of the kernels at S, 0 in a hole; the map is sound where it is >= 1 [theory 6.1]. */
+/* Sum of the kernels of a sphere map at S, 0 in a hole; the map is sound where it is >= 1 [theory 6.1]. */
 enum pm_status pm_map_coverage(const struct pm_map *map, const double S[3], struct pm_basis *work, double *Z,
                                struct pm_err *err);
 
