@@ -29,13 +29,13 @@ static double side(const struct field *f, ptrdiff_t k, const double p[3])
     return copysign(sqrt(best), sign);
 }
 
-/* Every fourth sample of chamber k against the exterior and the other chambers; the wall test finds
- * what lies between. */
+/* Some samples of chamber k against the exterior and the other chambers; the wall test has
+ * the last word: surfaces that cross have no wall. */
 static enum pm_status contained(const struct field *f, ptrdiff_t k, struct pm_err *err)
 {
     double H = f->s->pcase.height;
 
-    for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i += 4) {
+    for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i += 16) {
         const double *p = &f->x[3 * i];
         if (p[2] <= 0 || p[2] >= H || side(f, 0, p) >= 0)
             return pm_fail(err, PM_INPUT, "chamber %td leaves the body at (%.4g, %.4g, %.4g)", k,

@@ -8,10 +8,11 @@
 
 static const double TWO_PI = 6.283185307179586476925;
 
-enum { LEVELS = 801, POINTS = 720, MAX_STEPS = 20000 };
+enum { LEVELS = 801, POINTS = 720, MAX_STEPS = 20000, FINE = 100 };
 
 static const double STEP = 0.1;   /* of the tracing [mm] */
 static const double FILLET = 6.0; /* reach of the blend between two parts [mm] */
+static const double ROUND = 2.0;  /* least radius of a neck of the body [mm] */
 
 struct pm_outline {
     double height;
@@ -73,17 +74,41 @@ static struct level body(const struct pm_case *c, const double *radius, const do
     return all;
 }
 
-/* Radius of the offset of the profile by `wall` at height z: max over u of r(u) + sqrt(wall^2 -
- * (z-u)^2). */
-static double offset(const struct pm_chamber *c, double wall, double z)
+/* Radius of the offset of the profile by t at height z: max over u of r(u) + sqrt(t^2 - (z-u)^2).
+ */
+static double dilate(const struct pm_chamber *c, double t, double z)
 {
     double best = 0;
 
-    for (int i = -200; i <= 200; i++) {
-        double u = wall * i / 200;
-        best = fmax(best, pm_profile_outer(c, z - c->center[2] + u) + sqrt(wall * wall - u * u));
+    for (int i = -FINE; i <= FINE; i++) {
+        double u = t * i / FINE;
+        best = fmax(best, pm_profile_outer(c, z - c->center[2] + u) + sqrt(t * t - u * u));
     }
     return best;
+}
+
+/* Radius of a chamber's disc at all levels: offset by wall + ROUND, then back by ROUND, which fills
+ * the necks until their radius of curvature is ROUND. */
+static enum pm_status offsets(const struct pm_case *c, const struct pm_chamber *chamber,
+                              double *radius, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double step = c->height / (LEVELS - 1), *wide = NULL;
+    ptrdiff_t reach = (ptrdiff_t)(ROUND / step), n = LEVELS + 2 * reach;
+
+    PM_TRY(PM_NEW(wide, n, err));
+    for (ptrdiff_t i = 0; i < n; i++)
+        wide[i] = dilate(chamber, c->wall + ROUND, (double)(i - reach) * step);
+    for (ptrdiff_t l = 0; l < LEVELS; l++) {
+        radius[l] = HUGE_VAL;
+        for (ptrdiff_t i = -reach; i <= reach; i++) {
+            double u = (double)i * step;
+            radius[l] = fmin(radius[l], wide[l + reach + i] - sqrt(ROUND * ROUND - u * u));
+        }
+    }
+done:
+    pm_free(wide);
+    return status;
 }
 
 /* One Newton step to the curve along the gradient. */
@@ -159,18 +184,21 @@ enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, 
 {
     enum pm_status status = PM_OK;
     struct pm_outline *o = NULL;
-    double *path = NULL, radius[PM_MAX_CHAMBERS] = {0};
+    double *path = NULL, *table = NULL, radius[PM_MAX_CHAMBERS] = {0};
 
     *out = NULL;
     PM_TRY(PM_NEW(o, 1, err));
     o->height = c->height;
     PM_TRY(PM_NEW(o->xy, 2 * LEVELS * POINTS, err));
     PM_TRY(PM_NEW(path, 2 * MAX_STEPS, err));
+    PM_TRY(PM_NEW(table, PM_MAX_CHAMBERS * LEVELS, err));
+    for (ptrdiff_t k = 0; c->body == PM_BODY_ENVELOPE && k < c->nchambers; k++)
+        PM_TRY(offsets(c, &c->chamber[k], &table[k * LEVELS], err));
     for (ptrdiff_t level = 0; level < LEVELS; level++) {
         double z = c->height * (double)level / (LEVELS - 1);
         ptrdiff_t n;
         for (ptrdiff_t k = 0; k < c->nchambers; k++)
-            radius[k] = offset(&c->chamber[k], c->wall, z);
+            radius[k] = table[k * LEVELS + level];
         n = trace(c, radius, path);
         if (n < 8)
             PM_TRY(pm_fail(
@@ -185,6 +213,7 @@ enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, 
 done:
     pm_outline_free(o);
     pm_free(path);
+    pm_free(table);
     return status;
 }
 
