@@ -16,7 +16,7 @@
 #include "common/files/provenance.h"
 #include "common/files/schema.h"
 
-enum { MAX_SYMBOLS = 64, KIND_SIZE = 16, COMPACT_LIMIT = 16384, CHUNK_LIMIT = 1 << 22 };
+enum { KIND_SIZE = 16, COMPACT_LIMIT = 16384, CHUNK_LIMIT = 1 << 22 };
 
 struct pm_h5 {
     hid_t id;
@@ -24,11 +24,7 @@ struct pm_h5 {
     char kind[KIND_SIZE];
     char path[PM_PATH_MAX];
     struct pm_atomic out;
-    struct {
-        char name[PM_SIZE_NAME];
-        ptrdiff_t value;
-    } symbol[MAX_SYMBOLS]; /* sizes seen in this file */
-    int nsymbols;
+    struct pm_symbols symbols; /* sizes seen in this file */
 };
 
 void pm_h5_quiet(void)
@@ -316,27 +312,6 @@ static hid_t file_type(enum pm_type type)
     }
 }
 
-/* Compares a size with the number of its symbol in this file, or takes it as that number. */
-static int agree(struct pm_h5 *f, const struct pm_size *size, ptrdiff_t found, ptrdiff_t *expected)
-{
-    if (size->symbol[0] == '\0') {
-        *expected = size->add;
-        return found == size->add;
-    }
-    for (int i = 0; i < f->nsymbols; i++) {
-        if (strcmp(f->symbol[i].name, size->symbol) == 0) {
-            *expected = f->symbol[i].value + size->add;
-            return found == *expected;
-        }
-    }
-    *expected = size->add;
-    if (found < size->add || f->nsymbols == MAX_SYMBOLS)
-        return 0;
-    memcpy(f->symbol[f->nsymbols].name, size->symbol, sizeof size->symbol);
-    f->symbol[f->nsymbols++].value = found - size->add;
-    return 1;
-}
-
 static enum pm_status find_item(const struct pm_h5 *f, const char *name,
                                 const struct pm_item **item, int *index, struct pm_err *err)
 {
@@ -397,7 +372,7 @@ enum pm_status pm_h5_put(struct pm_h5 *f, const char *name, const ptrdiff_t *dim
     size_t bytes = H5Tget_size(memory_type(item->type));
     for (int k = 0; k < rank; k++) {
         ptrdiff_t expected;
-        if (!agree(f, &size[k], dims[k], &expected))
+        if (!pm_schema_agree(&f->symbols, &size[k], dims[k], &expected))
             return pm_fail(err, PM_SYSTEM,
                            "cannot write '%s': item '%s' axis %d has %td, expected %td", f->path,
                            name, k, dims[k], expected);
@@ -411,16 +386,6 @@ enum pm_status pm_h5_put(struct pm_h5 *f, const char *name, const ptrdiff_t *dim
     H5Pclose(list);
     H5Sclose(space);
     return ok ? PM_OK : write_failed(f, name, err);
-}
-
-enum pm_status pm_h5_put_double(struct pm_h5 *f, const char *name, double v, struct pm_err *err)
-{
-    return pm_h5_put(f, name, NULL, &v, err);
-}
-
-enum pm_status pm_h5_put_int(struct pm_h5 *f, const char *name, int64_t v, struct pm_err *err)
-{
-    return pm_h5_put(f, name, NULL, &v, err);
 }
 
 enum pm_status pm_h5_put_text(struct pm_h5 *f, const char *name, const char *v, struct pm_err *err)
@@ -515,7 +480,8 @@ static enum pm_status entry_shape(struct pm_h5 *f, const char *name, const struc
     *count = 1;
     for (int k = 0; k < rank; k++) {
         ptrdiff_t expected = 0;
-        if (d[k] > (hsize_t)PTRDIFF_MAX || !agree(f, &size[k], (ptrdiff_t)d[k], &expected))
+        if (d[k] > (hsize_t)PTRDIFF_MAX ||
+            !pm_schema_agree(&f->symbols, &size[k], (ptrdiff_t)d[k], &expected))
             return pm_h5_refuse(f, err, name, "has %llu along axis %d, expected %td",
                                 (unsigned long long)d[k], k, expected);
         if (d[k] > 0 && *count > PTRDIFF_MAX / (ptrdiff_t)d[k])
@@ -576,16 +542,6 @@ enum pm_status pm_h5_get_into(struct pm_h5 *f, const char *name, ptrdiff_t count
 done:
     close_entry(&e);
     return status;
-}
-
-enum pm_status pm_h5_get_double(struct pm_h5 *f, const char *name, double *v, struct pm_err *err)
-{
-    return pm_h5_get_into(f, name, 1, v, err);
-}
-
-enum pm_status pm_h5_get_int(struct pm_h5 *f, const char *name, int64_t *v, struct pm_err *err)
-{
-    return pm_h5_get_into(f, name, 1, v, err);
 }
 
 enum pm_status pm_h5_get_text(struct pm_h5 *f, const char *name, char **v, struct pm_err *err)

@@ -191,6 +191,25 @@ int pm_schema_sizes(const struct pm_item *item, int index, int max, struct pm_si
     return rank;
 }
 
+int pm_schema_agree(struct pm_symbols *symbols, const struct pm_size *size, ptrdiff_t found,
+                    ptrdiff_t *expected)
+{
+    *expected = size->add;
+    if (size->symbol[0] == '\0')
+        return found == *expected;
+    for (int i = 0; i < symbols->n; i++) {
+        if (strcmp(symbols->symbol[i].name, size->symbol) == 0) {
+            *expected += symbols->symbol[i].value;
+            return found == *expected;
+        }
+    }
+    if (found < size->add || symbols->n == PM_MAX_SYMBOLS)
+        return 0;
+    memcpy(symbols->symbol[symbols->n].name, size->symbol, sizeof size->symbol);
+    symbols->symbol[symbols->n++].value = found - size->add;
+    return 1;
+}
+
 const char *pm_schema_type_name(enum pm_type type)
 {
     static const char *const names[] = {"double", "int32", "int64", "uint8", "text"};

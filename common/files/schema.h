@@ -22,12 +22,21 @@ struct pm_item {
     int required; /* 1: in every file of its kinds, unless that records a failure (/failure) */
 };
 
-enum { PM_SIZE_NAME = 24 };
+enum { PM_SIZE_NAME = 24, PM_MAX_SYMBOLS = 64 };
 
 /* One size of an item: value = (value of the symbol, 0 where it is "") + add. */
 struct pm_size {
     char symbol[PM_SIZE_NAME];
     ptrdiff_t add;
+};
+
+/* The numbers that the symbols of one file stand for. */
+struct pm_symbols {
+    int n;
+    struct {
+        char name[PM_SIZE_NAME];
+        ptrdiff_t value;
+    } symbol[PM_MAX_SYMBOLS];
 };
 
 const struct pm_item *pm_schema_items(ptrdiff_t *n);
@@ -36,6 +45,10 @@ const struct pm_item *pm_schema_items(ptrdiff_t *n);
 const struct pm_item *pm_schema_find(const char *kind, const char *name, int *index);
 /* Fills size (at most max of them) for the index and returns the rank. */
 int pm_schema_sizes(const struct pm_item *item, int index, int max, struct pm_size *size);
+/* 1: found is the size; a symbol seen for the first time takes its number from it. *expected as
+ * known. */
+int pm_schema_agree(struct pm_symbols *symbols, const struct pm_size *size, ptrdiff_t found,
+                    ptrdiff_t *expected);
 /* 1: word is one of the space separated words of list. */
 int pm_schema_word_in(const char *word, const char *list);
 const char *pm_schema_type_name(enum pm_type type);
