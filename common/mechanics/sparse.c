@@ -31,7 +31,6 @@ enum pm_status pm_order_nodes(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t
         list[i] = (idx_t)adj[i];
     idx_t count = (idx_t)n, options[METIS_NOPTIONS];
     METIS_SetDefaultOptions(options);
-    options[METIS_OPTION_NSEPS] = 5; /* 10 % fewer flops, repaid by the second factorisation */
     options[METIS_OPTION_SEED] = 1;
     if (METIS_NodeND(&count, xadj, list, NULL, options, p, ip) != METIS_OK) {
         status = pm_fail(err, PM_SYSTEM, "METIS cannot order a graph of %td nodes", n);
