@@ -25,13 +25,13 @@ result() {
     fi
 }
 
-# check NAME COMMAND..: the command succeeds.
+# check NAME COMMAND..: the command succeeds; leaves $work/out and $work/err of the last expect or refused.
 check() {
     local name=$1 status=0
     shift
-    "$@" >"$work/out" 2>"$work/err" || status=$?
+    "$@" >"$work/check" 2>&1 || status=$?
     result "$status" "$name"
-    [ "$status" -eq 0 ] || note "$*"
+    [ "$status" -eq 0 ] || note "$*" "$work/check"
 }
 
 # expect STATUS NAME COMMAND..: the command ends with this exit status; its output is in $work/out and
@@ -65,10 +65,10 @@ refused() {
     fi
 }
 
-# note COMMAND: how to repeat it and what it said.
+# note COMMAND [FILE]: how to repeat it and what it said.
 note() {
     echo "# command: $1"
-    sed 's/^/# /' "$work/err"
+    sed 's/^/# /' "${2:-$work/err}"
 }
 
 finish() {
