@@ -1,5 +1,5 @@
-/* A small robot for tests: a round body (B-spline tube, exact to 1e-3) with ellipsoidal chambers (sphere
- * maps on icospheres, unfitted: they come out a little smaller). */
+/* A small robot for tests: a round body (B-spline tube, exact to 1e-3) with ellipsoidal chambers
+ * (sphere maps on icospheres, unfitted: they come out a little smaller). */
 #ifndef PM_TEST_ROBOT_H
 #define PM_TEST_ROBOT_H
 
@@ -57,12 +57,13 @@ done:
 static enum pm_status robot_icosphere(int levels, struct pm_surface *s, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    static const int32_t face[60] = {0, 11, 5,  0, 5,  1,  0, 1, 7, 0, 7,  10, 0, 10, 11, 1, 5, 9, 5, 11,
-                                     4, 11, 10, 2, 10, 7,  6, 7, 1, 8, 3,  9,  4, 3,  4,  2, 3, 2, 6, 3,
-                                     6, 8,  3,  8, 9,  4,  9, 5, 2, 4, 11, 6,  2, 10, 8,  6, 7, 9, 8, 1};
+    static const int32_t face[60] = {0, 11, 5, 0, 5,  1,  0,  1,  7,  0,  7, 10, 0, 10, 11,
+                                     1, 5,  9, 5, 11, 4,  11, 10, 2,  10, 7, 6,  7, 1,  8,
+                                     3, 9,  4, 3, 4,  2,  3,  2,  6,  3,  6, 8,  3, 8,  9,
+                                     4, 9,  5, 2, 4,  11, 6,  2,  10, 8,  6, 7,  9, 8,  1};
     const double g = (1 + sqrt(5.0)) / 2;
-    const double p[36] = {-1, g, 0, 1, g, 0, -1, -g, 0, 1, -g, 0, 0, -1, g, 0, 1, g,
-                          0, -1, -g, 0, 1, -g, g, 0, -1, g, 0, 1, -g, 0, -1, -g, 0, 1};
+    const double p[36] = {-1, g,  0,  1, g, 0,  -1, -g, 0,  1, -g, 0, 0,  -1, g,  0,  1, g,
+                          0,  -1, -g, 0, 1, -g, g,  0,  -1, g, 0,  1, -g, 0,  -1, -g, 0, 1};
     s->n = 12;
     s->nt = 20;
     const ptrdiff_t total = 10 * (1L << (2 * levels)) + 2;
@@ -78,11 +79,13 @@ static enum pm_status robot_icosphere(int levels, struct pm_surface *s, struct p
             memcpy(v, s->tri + 3 * t, sizeof v);
             for (int k = 0; k < 3; k++) {
                 double mid[3];
-                pm_map_middle(PM_SURFACE_SPHERE, s->Phi + 3 * v[k], s->Phi + 3 * v[(k + 1) % 3], mid);
+                pm_map_middle(PM_SURFACE_SPHERE, s->Phi + 3 * v[k], s->Phi + 3 * v[(k + 1) % 3],
+                              mid);
                 m[k] = (int32_t)s->n;
                 for (ptrdiff_t a = base; a < s->n; a++)
                     if (fabs(s->Phi[3 * a] - mid[0]) + fabs(s->Phi[3 * a + 1] - mid[1]) +
-                            fabs(s->Phi[3 * a + 2] - mid[2]) < 1e-9)
+                            fabs(s->Phi[3 * a + 2] - mid[2]) <
+                        1e-9)
                         m[k] = (int32_t)a;
                 if (m[k] == s->n)
                     memcpy(s->Phi + 3 * s->n++, mid, sizeof mid);
@@ -99,7 +102,8 @@ done:
     return status;
 }
 
-static enum pm_status robot_ellipsoid(struct pm_surface *s, const struct robot_chamber *c, struct pm_err *err)
+static enum pm_status robot_ellipsoid(struct pm_surface *s, const struct robot_chamber *c,
+                                      struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     *s = (struct pm_surface){.type = PM_SURFACE_SPHERE};

@@ -15,6 +15,9 @@ enum {
     PM_FACE_SYM_Z = -5
 };
 
+/* How a mesh came about. */
+enum { PM_ORIGIN_GENERATED = 0, PM_ORIGIN_MORPHED = 1, PM_ORIGIN_IMPORTED = 2 };
+
 struct pm_mesh {
     struct pm_case pcase;
     char failure[512]; /* "" or why there is no mesh (--record-failure): then nothing else is valid
@@ -40,6 +43,8 @@ struct pm_mesh {
     int64_t *tag;        /* node numbers of the imported file, NULL otherwise (nn) */
     double max_damping;  /* largest 1 - t of a mid-side node */
     double min_jacobian; /* smallest scaled Jacobian, Bernstein lower bound */
+    int64_t origin;      /* PM_ORIGIN_* */
+    int64_t delaunay;    /* 1: HXT failed, made by the slower Delaunay mesher */
 };
 
 enum pm_status pm_mesh_read(struct pm_h5 *f, struct pm_mesh *m, struct pm_err *err);

@@ -40,6 +40,8 @@ static const struct pm_item table[] = {
     {"mesh state", "/mesh/weight_val", D, "nw", "1", "weight: x = sum weight * phi", 1},
     {"mesh state", "/mesh/max_damping", D, "", "1", "largest damping of a mid-side node", 1},
     {"mesh state", "/mesh/min_jacobian", D, "", "1", "smallest scaled Jacobian, lower bound", 1},
+    {"mesh state", "/mesh/origin", I64, "", "1", "0 generated, 1 morphed from a previous mesh, 2 imported", 1},
+    {"mesh state", "/mesh/delaunay", I64, "", "1", "1: HXT failed, made by the Delaunay mesher", 1},
     {"mesh state", "/mesh/tag", I64, "nn", "1", "node numbers of the imported file", 0},
 
     {"mesh state", "/VTKHDF/NumberOfPoints", I64, "1", "1", "VTK: points", 1},

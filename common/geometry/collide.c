@@ -27,8 +27,8 @@ static int overlap(const struct box *a, const struct box *b)
     return 1;
 }
 
-static enum pm_status sorted_boxes(const double *x, ptrdiff_t nt, const int32_t *tri, struct box **boxes,
-                                   struct pm_err *err)
+static enum pm_status sorted_boxes(const double *x, ptrdiff_t nt, const int32_t *tri,
+                                   struct box **boxes, struct pm_err *err)
 {
     struct box *box = NULL;
     *boxes = NULL;
@@ -59,8 +59,8 @@ static double orient(const double *a, const double *b, const double *c, const do
 }
 
 /* Does the segment p q pass through the triangle a b c? Touching does not count. */
-static int pierces(const double *p, const double *q, const double *a, const double *b, const double *c,
-                   double at[3])
+static int pierces(const double *p, const double *q, const double *a, const double *b,
+                   const double *c, double at[3])
 {
     const double dp = orient(a, b, c, p), dq = orient(a, b, c, q);
     if (!(dp * dq < 0))
@@ -89,8 +89,8 @@ static int edges_pierce(const double *x, const int32_t *v, const int32_t *w, dou
     return 0;
 }
 
-enum pm_status pm_collide_pierce(const double *x, ptrdiff_t nt, const int32_t *tri, struct pm_contact *c,
-                                 struct pm_err *err)
+enum pm_status pm_collide_pierce(const double *x, ptrdiff_t nt, const int32_t *tri,
+                                 struct pm_contact *c, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct box *box = NULL;

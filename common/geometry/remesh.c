@@ -35,7 +35,8 @@ static double curvature(const double r_a[6], const double r_ab[9], const double 
 }
 
 /* Wanted length at every node, then at most `growth` per unit length along edges. */
-static enum pm_status set_sizes(struct pm_edit *m, const struct pm_remesh_opts *o, struct pm_err *err)
+static enum pm_status set_sizes(struct pm_edit *m, const struct pm_remesh_opts *o,
+                                struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     for (ptrdiff_t a = 0; a < m->nn; a++) {
@@ -52,8 +53,9 @@ static enum pm_status set_sizes(struct pm_edit *m, const struct pm_remesh_opts *
             for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
                 const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
                 const double *p = m->x + 3 * a, *q = m->x + 3 * b;
-                const double l = sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
-                                      (p[2] - q[2]) * (p[2] - q[2]));
+                const double l =
+                    sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
+                         (p[2] - q[2]) * (p[2] - q[2]));
                 const double ha = fmin(m->size[a], m->size[b] + o->growth * l);
                 const double hb = fmin(m->size[b], m->size[a] + o->growth * l);
                 changed |= ha < m->size[a] * (1 - 1e-3) || hb < m->size[b] * (1 - 1e-3);
@@ -66,8 +68,8 @@ done:
     return status;
 }
 
-/* Where smoothing would move node a: to the mean of the centroids around it, weighted by area over the
- * square of the wanted length; on a rim between its two neighbours. Displacement in d. */
+/* Where smoothing would move node a: to the mean of the centroids around it, weighted by area over
+ * the square of the wanted length; on a rim between its two neighbours. Displacement in d. */
 static void target(const struct pm_edit *m, ptrdiff_t a, double d[3])
 {
     double sum = 0;
@@ -94,7 +96,8 @@ static void target(const struct pm_edit *m, ptrdiff_t a, double d[3])
         d[i] = sum > 0 ? d[i] / sum : 0;
 }
 
-/* A rim node: its two neighbours on the rim, weighted so that both edges are equal parts of the wanted length. */
+/* A rim node: its two neighbours on the rim, weighted so that both edges are equal parts of the
+ * wanted length. */
 static void target_rim(const struct pm_edit *m, ptrdiff_t a, double d[3])
 {
     double sum = 0;
@@ -114,7 +117,8 @@ static void target_rim(const struct pm_edit *m, ptrdiff_t a, double d[3])
         d[i] = sum > 0 ? d[i] / sum : 0;
 }
 
-/* Moves node a tangentially by the parameter step J^+ d, halved until no triangle around it gets bad. */
+/* Moves node a tangentially by the parameter step J^+ d, halved until no triangle around it gets
+ * bad. */
 static enum pm_status smooth_node(struct pm_edit *m, ptrdiff_t a, struct pm_err *err)
 {
     enum pm_status status = PM_OK;

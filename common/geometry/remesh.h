@@ -1,6 +1,7 @@
-/* Isotropic remeshing of a surface in its parameter space: nodes carry S, their place is r(S), so every
- * node of the result lies on the surface exactly (Botsch & Kobbelt, A remeshing approach to multiresolution
- * modeling, 2004). The rims v = 0 and v = 1 of a tube keep v exactly; rim nodes slide along them. */
+/* Isotropic remeshing of a surface in its parameter space: nodes carry S, their place is r(S), so
+ * every node of the result lies on the surface exactly (Botsch & Kobbelt, A remeshing approach to
+ * multiresolution modeling, 2004). The rims v = 0 and v = 1 of a tube keep v exactly; rim nodes
+ * slide along them. */
 #ifndef PM_REMESH_H
 #define PM_REMESH_H
 
@@ -24,14 +25,15 @@ struct pm_patch {
     int32_t *tri; /* normal out of the closed surface                (nt x 3) */
 };
 
-/* Size h = min(size, crest / largest principal curvature) >= size_min, limited in growth; edges end up
- * within about [4/5, 4/3] h. Starts from the triangulation of the control points. PM_INPUT where that
- * triangulation is unusable (folded in the parameter, not a manifold), PM_NUMERIC where the map fails.
- * `surface` is its number in messages. Cost: some 20 evaluations per node. */
+/* Size h = min(size, crest / largest principal curvature) >= size_min, limited in growth; edges end
+ * up within about [4/5, 4/3] h. Starts from the triangulation of the control points. PM_INPUT where
+ * that triangulation is unusable (folded in the parameter, not a manifold), PM_NUMERIC where the
+ * map fails. `surface` is its number in messages. Cost: some 20 evaluations per node. */
 enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,
                          struct pm_patch *p, struct pm_err *err);
 void pm_patch_release(struct pm_patch *p);
 /* > 0 where the parameters a, b, c turn counter-clockwise seen from outside the reference shape. */
-double pm_parameter_orientation(int32_t type, const double a[3], const double b[3], const double c[3]);
+double pm_parameter_orientation(int32_t type, const double a[3], const double b[3],
+                                const double c[3]);
 
 #endif

@@ -5,12 +5,13 @@
 
 #include "common/base/memory.h"
 
-/* A facet may lean at most this far (cosine) from the surface normal at its nodes; worse ones may only
- * be replaced by better ones. */
+/* A facet may lean at most this far (cosine) from the surface normal at its nodes; worse ones may
+ * only be replaced by better ones. */
 static const double min_cosine = 0.3;
 static const double split_ratio = 4.0 / 3.0, collapse_ratio = 4.0 / 5.0;
 
-double pm_parameter_orientation(int32_t type, const double a[3], const double b[3], const double c[3])
+double pm_parameter_orientation(int32_t type, const double a[3], const double b[3],
+                                const double c[3])
 {
     if (type == PM_SURFACE_BSPLINE) {
         const double tb = atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]);
@@ -36,7 +37,8 @@ static double wanted(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
     return 0.5 * (m->size[a] + m->size[b]);
 }
 
-/* Quality of the facet (a, b, c): -1 folded in the parameter, else cosine against the surface normals. */
+/* Quality of the facet (a, b, c): -1 folded in the parameter, else cosine against the surface
+ * normals. */
 static double facet(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, ptrdiff_t c)
 {
     if (!(pm_parameter_orientation(m->type, m->S + 3 * a, m->S + 3 * b, m->S + 3 * c) > 0))
@@ -81,8 +83,8 @@ static int acceptable(double now, double before)
 enum pm_status pm_edit_place(struct pm_edit *m, ptrdiff_t a, struct pm_err *err)
 {
     double r_a[6];
-    const enum pm_status status = pm_map_point(m->map, m->phi, m->S + 3 * a, &m->basis, m->x + 3 * a,
-                                               r_a, NULL, err);
+    const enum pm_status status =
+        pm_map_point(m->map, m->phi, m->S + 3 * a, &m->basis, m->x + 3 * a, r_a, NULL, err);
     double *n = m->normal + 3 * a;
     n[0] = r_a[1] * r_a[5] - r_a[2] * r_a[4];
     n[1] = r_a[2] * r_a[3] - r_a[0] * r_a[5];
@@ -100,9 +102,10 @@ static int corner(const struct pm_edit *m, ptrdiff_t t, ptrdiff_t a)
     return v[0] == a ? 0 : v[1] == a ? 1 : 2;
 }
 
-/* Triangles on the edge (a, b): t[0] runs a -> b, t[1] runs b -> a, -1 if there is none; c and d are their
- * opposite nodes. Returns their number. */
-static int on_edge(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, ptrdiff_t t[2], ptrdiff_t opp[2])
+/* Triangles on the edge (a, b): t[0] runs a -> b, t[1] runs b -> a, -1 if there is none; c and d
+ * are their opposite nodes. Returns their number. */
+static int on_edge(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, ptrdiff_t t[2],
+                   ptrdiff_t opp[2])
 {
     int n = 0;
     t[0] = t[1] = opp[0] = opp[1] = -1;
@@ -175,19 +178,21 @@ static enum pm_status check_start(const struct pm_edit *m, int surface, struct p
     for (ptrdiff_t t = 0; t < m->nt; t++) {
         const int32_t *v = m->tri + 3 * t;
         if (facet_of(m, t) == -1)
-            return pm_fail(err, PM_INPUT,
-                           "surface %d: triangle %td of its control points is folded in the parameter",
-                           surface, t);
+            return pm_fail(
+                err, PM_INPUT,
+                "surface %d: triangle %td of its control points is folded in the parameter",
+                surface, t);
         for (int k = 0; k < 3; k++) {
             ptrdiff_t f[2], opp[2];
             const ptrdiff_t a = v[k], b = v[(k + 1) % 3];
             const int n = on_edge(m, a, b, f, opp);
             const int rim = m->rim[a] != 0 && m->rim[a] == m->rim[b];
             if (n > 2 || f[0] != t || (n == 1 && !rim))
-                return pm_fail(err, PM_INPUT,
-                               "surface %d: edge %td-%td of its control points is not shared by two "
-                               "triangles of like orientation",
-                               surface, a, b);
+                return pm_fail(
+                    err, PM_INPUT,
+                    "surface %d: edge %td-%td of its control points is not shared by two "
+                    "triangles of like orientation",
+                    surface, a, b);
         }
     }
     return PM_OK;
@@ -217,7 +222,8 @@ enum pm_status pm_edit_init(struct pm_edit *m, const struct pm_surface *s, const
         for (int k = 0; k < 3; k++) {
             const ptrdiff_t a = m->tri[3 * t + k];
             if (m->degree[a] >= PM_EDIT_DEGREE - 1) {
-                status = pm_fail(err, PM_INPUT, "surface %d: control point %td has more than %d triangles",
+                status = pm_fail(err, PM_INPUT,
+                                 "surface %d: control point %td has more than %d triangles",
                                  surface, a, PM_EDIT_DEGREE - 1);
                 goto done;
             }
@@ -259,7 +265,8 @@ static void cut(struct pm_edit *m, ptrdiff_t t, ptrdiff_t a, ptrdiff_t b, ptrdif
     attach(m, e, f);
 }
 
-static enum pm_status split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, int *done_it, struct pm_err *err)
+static enum pm_status split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, int *done_it,
+                                 struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     ptrdiff_t t[2], opp[2];
@@ -417,7 +424,8 @@ static int flip_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
     const double now = fmin(facet(m, a, d, c), facet(m, d, b, c));
     if (!acceptable(now, before))
         return 0;
-    const int32_t f0[3] = {(int32_t)a, (int32_t)d, (int32_t)c}, f1[3] = {(int32_t)d, (int32_t)b, (int32_t)c};
+    const int32_t f0[3] = {(int32_t)a, (int32_t)d, (int32_t)c},
+                  f1[3] = {(int32_t)d, (int32_t)b, (int32_t)c};
     memcpy(m->tri + 3 * t[0], f0, sizeof f0);
     memcpy(m->tri + 3 * t[1], f1, sizeof f1);
     detach(m, b, t[0]);

@@ -29,13 +29,13 @@ void pm_edit_release(struct pm_edit *m);
 enum pm_status pm_edit_place(struct pm_edit *m, ptrdiff_t a, struct pm_err *err);
 /* Splits every edge longer than 4/3 of the wanted length; *count edges. */
 enum pm_status pm_edit_split(struct pm_edit *m, ptrdiff_t *count, struct pm_err *err);
-/* Collapses edges shorter than 4/5 of the wanted length where topology, orientation, normals and the
- * lengths of the new edges allow; returns their number. */
+/* Collapses edges shorter than 4/5 of the wanted length where topology, orientation, normals and
+ * the lengths of the new edges allow; returns their number. */
 ptrdiff_t pm_edit_collapse(struct pm_edit *m);
 /* Delaunay flips in configuration; returns their number. */
 ptrdiff_t pm_edit_flip(struct pm_edit *m);
-/* Smallest over the triangles around a of (unit normal of the facet) . (mean surface normal of its nodes),
- * -1 where one is folded in the parameter. */
+/* Smallest over the triangles around a of (unit normal of the facet) . (mean surface normal of its
+ * nodes), -1 where one is folded in the parameter. */
 double pm_edit_worst(const struct pm_edit *m, ptrdiff_t a);
 /* Drops what was removed and hands the arrays over. */
 enum pm_status pm_edit_finish(struct pm_edit *m, struct pm_patch *p, struct pm_err *err);

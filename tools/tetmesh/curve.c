@@ -1,0 +1,323 @@
+#include "tools/tetmesh/curve.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/geometry/surface_map.h"
+#include "common/mechanics/extension.h"
+#include "tools/tetmesh/edges.h"
+#include "tools/tetmesh/quality.h"
+#include "tools/tetmesh/weights.h"
+
+const double pm_curve_bound = 0.1;
+static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
+
+struct curving {
+    const struct pm_surfaces *s;
+    const struct pm_shell *shell;
+    struct pm_mesh *m;
+    struct pm_edges edges;
+    ptrdiff_t nv;        /* vertices; mid-side nodes follow in the order of their edges */
+    int32_t *owner;      /* surface of an edge, -1 inside the solid or a cap (edges.n) */
+    double *straight;    /* straight node positions (nn x 3) [mm] */
+    double *shift;       /* full displacement from there (nn x 3) [mm] */
+    double *t;           /* its factor (nn) */
+    struct pm_map **map; /* (ns) */
+    struct pm_basis basis;
+};
+
+static void release(struct curving *c)
+{
+    for (ptrdiff_t k = 0; c->map != NULL && k < c->s->ns; k++)
+        pm_map_free(c->map[k]);
+    pm_edges_release(&c->edges);
+    pm_basis_release(&c->basis);
+    pm_free(c->owner);
+    pm_free(c->straight);
+    pm_free(c->shift);
+    pm_free(c->t);
+    pm_free(c->map);
+}
+
+/* Node of the middle of (a, b). */
+static int32_t middle(const struct curving *c, int32_t a, int32_t b)
+{
+    return (int32_t)(c->nv + pm_edges_find(&c->edges, a, b));
+}
+
+static enum pm_status connect(struct curving *c, const struct pm_tetra *tetra, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_mesh *m = c->m;
+    m->ne = tetra->ne;
+    m->nn = c->nv + c->edges.n;
+    PM_TRY(PM_NEW(m->tet, 10 * m->ne, err));
+    for (ptrdiff_t e = 0; e < m->ne; e++) {
+        int32_t *v = m->tet + 10 * e;
+        memcpy(v, tetra->tet + 4 * e, 4 * sizeof *v);
+        for (int k = 0; k < 6; k++)
+            v[4 + k] = middle(c, v[tet_edge[k][0]], v[tet_edge[k][1]]);
+    }
+    PM_TRY(PM_NEW(c->straight, 3 * m->nn, err));
+    memcpy(c->straight, tetra->x, (size_t)(3 * c->nv) * sizeof *c->straight);
+    for (ptrdiff_t k = 0; k < c->edges.n; k++)
+        for (int i = 0; i < 3; i++)
+            c->straight[3 * (c->nv + k) + i] =
+                (tetra->x[3 * c->edges.low[k] + i] + tetra->x[3 * c->edges.high[k] + i]) / 2;
+done:
+    return status;
+}
+
+/* The shell's triangles as faces out of the solid; every one must be a free face of the tetrahedra.
+ */
+static enum pm_status add_faces(struct curving *c, const struct pm_tetra *tetra, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_mesh *m = c->m;
+    int32_t *face = NULL, *element = NULL;
+    ptrdiff_t n = 0;
+    PM_TRY(pm_boundary_faces(tetra->ne, tetra->tet, &n, &face, &element, err));
+    m->nf = c->shell->nt;
+    if (n != m->nf)
+        PM_TRY(pm_fail(err, PM_NUMERIC,
+                       "the tetrahedra have %td free faces, the surfaces %td triangles", n, m->nf));
+    PM_TRY(PM_NEW(m->tri, 6 * m->nf, err));
+    PM_TRY(PM_NEW(m->tri_tag, m->nf, err));
+    PM_TRY(PM_NEW(c->owner, c->edges.n, err));
+    memset(c->owner, 0xff, (size_t)c->edges.n * sizeof *c->owner);
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        const int32_t *v = c->shell->tri + 3 * f;
+        const int flip = c->shell->tag[f] > 0; /* chambers: out of the cavity -> out of the solid */
+        int32_t *w = m->tri + 6 * f;
+        m->tri_tag[f] = c->shell->tag[f];
+        for (int k = 0; k < 3; k++)
+            w[k] = v[flip ? (3 - k) % 3 : k];
+        for (int k = 0; k < 3; k++) {
+            const ptrdiff_t e = pm_edges_find(&c->edges, w[k], w[(k + 1) % 3]);
+            if (e < 0)
+                PM_TRY(pm_fail(err, PM_NUMERIC, "the tetrahedra lack edge %d-%d of the surfaces",
+                               (int)w[k], (int)w[(k + 1) % 3]));
+            w[3 + k] = (int32_t)(c->nv + e);
+            if (m->tri_tag[f] >= 0)
+                c->owner[e] = m->tri_tag[f];
+        }
+    }
+done:
+    pm_free(face);
+    pm_free(element);
+    return status;
+}
+
+/* Parameter of the foot of the middle of a chord: Newton for r_a . (r - middle) = 0 from the middle
+ * of the parameters; on a rim v stays. Steps are at most a quarter of the chord. */
+static enum pm_status foot(struct curving *c, ptrdiff_t k, const double *Sa, const double *Sb,
+                           const double mid[3], double chord, double S[3], struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_surface *s = &c->s->s[k];
+    const int rim = s->type == PM_SURFACE_BSPLINE && Sa[2] == Sb[2] && (Sa[2] == 0 || Sa[2] == 1);
+    pm_map_middle(s->type, Sa, Sb, S);
+    for (int it = 0; it < 20; it++) {
+        double r[3], r_a[6], r_ab[9], f[2] = {0}, g[3] = {0}, h[3], d[2];
+        PM_TRY(pm_map_point(c->map[k], s->phi, S, &c->basis, r, r_a, r_ab, err));
+        for (int i = 0; i < 3; i++) {
+            f[0] -= r_a[i] * (r[i] - mid[i]);
+            f[1] -= r_a[3 + i] * (r[i] - mid[i]);
+            g[0] += r_a[i] * r_a[i];
+            g[1] += r_a[i] * r_a[3 + i];
+            g[2] += r_a[3 + i] * r_a[3 + i];
+        }
+        for (int j = 0; j < 3; j++) {
+            h[j] = g[j];
+            for (int i = 0; i < 3; i++)
+                h[j] += r_ab[3 * j + i] * (r[i] - mid[i]);
+        }
+        /* Gauss-Newton where the Hessian is not positive */
+        if (!(h[0] > 0.1 * g[0]) ||
+            !(h[0] * h[2] - h[1] * h[1] > 0.1 * (g[0] * g[2] - g[1] * g[1])))
+            memcpy(h, g, sizeof h);
+        const double det = h[0] * h[2] - h[1] * h[1];
+        d[0] = rim ? f[0] / h[0] : (h[2] * f[0] - h[1] * f[1]) / det;
+        d[1] = rim ? 0 : (h[0] * f[1] - h[1] * f[0]) / det;
+        const double step =
+            sqrt(fmax(g[0] * d[0] * d[0] + 2 * g[1] * d[0] * d[1] + g[2] * d[1] * d[1], 0));
+        const double cut = fmin(1, 0.25 * chord / step);
+        if (!(step > 1e-12 * chord))
+            break;
+        d[0] *= cut;
+        d[1] *= cut;
+        double next[3];
+        pm_map_move(s->type, S, d, next);
+        memcpy(S, next, sizeof next);
+        if (rim)
+            S[2] = Sa[2];
+    }
+done:
+    return status;
+}
+
+/* Parameters, owners and full displacements of the surface nodes. */
+static enum pm_status find_feet(struct curving *c, struct pm_curve_report *r, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_mesh *m = c->m;
+    const struct pm_shell *shell = c->shell;
+    PM_TRY(PM_NEW(m->surface, m->nn, err));
+    PM_TRY(PM_NEW(m->S, 3 * m->nn, err));
+    PM_TRY(PM_NEW(c->shift, 3 * m->nn, err));
+    PM_TRY(PM_NEW(c->t, m->nn, err));
+    memset(m->surface, 0xff, (size_t)m->nn * sizeof *m->surface);
+    memcpy(m->surface, shell->surface, (size_t)shell->nn * sizeof *m->surface);
+    memcpy(m->S, shell->S, (size_t)(3 * shell->nn) * sizeof *m->S);
+    for (ptrdiff_t a = 0; a < m->nn; a++)
+        c->t[a] = 1;
+    for (ptrdiff_t e = 0; e < c->edges.n; e++) {
+        const ptrdiff_t a = c->edges.low[e], b = c->edges.high[e], n = c->nv + e, k = c->owner[e];
+        double chord = 0, x[3];
+        if (k < 0)
+            continue;
+        for (int i = 0; i < 3; i++)
+            chord += (c->straight[3 * a + i] - c->straight[3 * b + i]) *
+                     (c->straight[3 * a + i] - c->straight[3 * b + i]);
+        PM_TRY(foot(c, k, m->S + 3 * a, m->S + 3 * b, c->straight + 3 * n, sqrt(chord),
+                    m->S + 3 * n, err));
+        PM_TRY(
+            pm_map_point(c->map[k], c->s->s[k].phi, m->S + 3 * n, &c->basis, x, NULL, NULL, err));
+        m->surface[n] = (int32_t)k;
+        for (int i = 0; i < 3; i++)
+            c->shift[3 * n + i] = x[i] - c->straight[3 * n + i];
+        r->surface_middles++;
+    }
+done:
+    return status;
+}
+
+/* Carries the shift of the surface into the interior. */
+static enum pm_status extend(struct curving *c, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_extension *ext = NULL;
+    struct pm_mesh straight = *c->m;
+    straight.x_generated = c->straight;
+    PM_TRY(pm_extension_new(&straight, &ext, err));
+    PM_TRY(pm_extension_apply(ext, c->shift, err));
+done:
+    pm_extension_free(ext);
+    return status;
+}
+
+static void move(const struct curving *c)
+{
+    for (ptrdiff_t a = 0; a < c->m->nn; a++)
+        for (int i = 0; i < 3; i++)
+            c->m->x[3 * a + i] = c->straight[3 * a + i] + c->t[a] * c->shift[3 * a + i];
+}
+
+/* One sweep over the elements: factors of those below the bound *= 0.7. Returns their number. */
+static ptrdiff_t damp(struct curving *c)
+{
+    struct pm_mesh *m = c->m;
+    ptrdiff_t bad = 0;
+    for (ptrdiff_t e = 0; e < m->ne; e++) {
+        double X[30];
+        pm_quality_gather(m->x, m->tet, e, X);
+        if (pm_quality_scaled(X) >= pm_curve_bound)
+            continue;
+        bad++;
+        for (int k = 0; k < 10; k++)
+            c->t[m->tet[10 * e + k]] *= 0.7;
+    }
+    return bad;
+}
+
+void pm_curve_quality(const struct pm_mesh *m, const double *x, double *scaled, double *mean_ratio)
+{
+    *scaled = *mean_ratio = 1;
+    for (ptrdiff_t e = 0; e < m->ne; e++) {
+        double X[30];
+        pm_quality_gather(x, m->tet, e, X);
+        *scaled = fmin(*scaled, pm_quality_scaled(X));
+        *mean_ratio = fmin(*mean_ratio, pm_quality_mean_ratio(X));
+    }
+}
+
+static enum pm_status untangle(struct curving *c, struct pm_curve_report *r, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_mesh *m = c->m;
+    double mean_ratio;
+    ptrdiff_t bad = 1;
+    PM_TRY(PM_NEW(m->x, 3 * m->nn, err));
+    for (r->sweeps = 0; bad > 0; r->sweeps++) {
+        move(c);
+        bad = damp(c);
+        if (r->sweeps == 0)
+            r->bad = bad;
+        if (r->sweeps == 40)
+            PM_TRY(pm_fail(err, PM_NUMERIC, "%td elements stay below a scaled Jacobian of %g", bad,
+                           pm_curve_bound));
+    }
+    m->max_damping = 0;
+    for (ptrdiff_t a = 0; a < m->nn; a++) {
+        if (a < c->nv || m->surface[a] < 0)
+            continue;
+        m->max_damping = fmax(m->max_damping, 1 - c->t[a]);
+        r->damped += c->t[a] < 1;
+    }
+    pm_curve_quality(m, m->x, &m->min_jacobian, &mean_ratio);
+done:
+    return status;
+}
+
+/* Rows of weights of all surface nodes; their positions are then exactly those rows times phi. */
+static enum pm_status weigh(struct curving *c, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_mesh *m = c->m;
+    struct pm_weights w = {0};
+    m->N = c->s->offset[c->s->ns];
+    PM_TRY(pm_weights_init(&w, c->s, m->nn, err));
+    for (ptrdiff_t n = 0; n < m->nn; n++) {
+        if (m->surface[n] >= 0 && n < c->nv) {
+            PM_TRY(pm_weights_add(&w, c->map[m->surface[n]], m->surface[n], m->S + 3 * n, 1, err));
+        } else if (m->surface[n] >= 0) {
+            const int32_t ends[2] = {c->edges.low[n - c->nv], c->edges.high[n - c->nv]};
+            PM_TRY(pm_weights_add(&w, c->map[m->surface[n]], m->surface[n], m->S + 3 * n, c->t[n],
+                                  err));
+            for (int k = 0; k < 2 && c->t[n] < 1; k++)
+                PM_TRY(pm_weights_add(&w, c->map[m->surface[ends[k]]], m->surface[ends[k]],
+                                      m->S + 3 * ends[k], (1 - c->t[n]) / 2, err));
+        }
+        PM_TRY(pm_weights_close_row(&w, m->x + 3 * n, err));
+    }
+    pm_weights_finish(&w, m);
+done:
+    pm_weights_release(&w);
+    return status;
+}
+
+enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell *shell,
+                             const struct pm_tetra *tetra, struct pm_mesh *m,
+                             struct pm_curve_report *r, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct curving c = {.s = s, .shell = shell, .m = m, .nv = tetra->nn};
+    *r = (struct pm_curve_report){0};
+    m->nc = s->ns - 1;
+    PM_TRY(PM_NEW(c.map, s->ns, err));
+    for (ptrdiff_t k = 0; k < s->ns; k++)
+        PM_TRY(pm_map_new(&s->s[k], &c.map[k], err));
+    PM_TRY(pm_edges_new(tetra->nn, tetra->ne, tetra->tet, &c.edges, err));
+    PM_TRY(connect(&c, tetra, err));
+    PM_TRY(add_faces(&c, tetra, err));
+    PM_TRY(find_feet(&c, r, err));
+    PM_TRY(extend(&c, err));
+    PM_TRY(untangle(&c, r, err));
+    PM_TRY(weigh(&c, err));
+    PM_TRY(PM_NEW(m->x_generated, 3 * m->nn, err));
+    memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
+done:
+    release(&c);
+    return status;
+}

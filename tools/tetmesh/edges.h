@@ -1,0 +1,29 @@
+/* Edges of a tetrahedral mesh and its quadratic nodes. */
+#ifndef PM_EDGES_H
+#define PM_EDGES_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "common/base/status.h"
+
+struct pm_edges {
+    ptrdiff_t nv, n; /* vertices, edges */
+    ptrdiff_t *ptr;  /* edges of lower end a: ptr[a] .. ptr[a + 1] - 1 (nv + 1) */
+    int32_t *low;    /* lower end  (n) */
+    int32_t *high;   /* higher end, ascending for each lower one (n) */
+};
+
+/* Unique edges of ne tetrahedra (ne x 4), sorted by (low, high). */
+enum pm_status pm_edges_new(ptrdiff_t nv, ptrdiff_t ne, const int32_t *tet, struct pm_edges *e,
+                            struct pm_err *err);
+void pm_edges_release(struct pm_edges *e);
+/* Its number, -1 if there is none. */
+ptrdiff_t pm_edges_find(const struct pm_edges *e, int32_t a, int32_t b);
+
+/* Faces of ne tetrahedra that belong to one of them only (n x 3, outward, new memory) with their
+ * element. PM_NUMERIC where a face belongs to more than two. */
+enum pm_status pm_boundary_faces(ptrdiff_t ne, const int32_t *tet, ptrdiff_t *n, int32_t **face,
+                                 int32_t **element, struct pm_err *err);
+
+#endif

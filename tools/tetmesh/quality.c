@@ -1,0 +1,68 @@
+#include "tools/tetmesh/quality.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/mechanics/tet10.h"
+
+static double det3(const double *a, const double *b, const double *c)
+{
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+void pm_quality_bernstein(const double X[30], double b[20])
+{
+    static const double vertex[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    double g[3][4][3]; /* dX/dxi_j at vertex v: linear in between */
+    memset(g, 0, sizeof g);
+    for (int v = 0; v < 4; v++) {
+        double dN[30];
+        pm_tet10_shape_gradient(vertex[v], dN);
+        for (int a = 0; a < 10; a++)
+            for (int j = 0; j < 3; j++)
+                for (int i = 0; i < 3; i++)
+                    g[j][v][i] += dN[3 * a + j] * X[3 * a + i];
+    }
+    /* det = sum_uvw L_u L_v L_w det(g_0(u), g_1(v), g_2(w)): the coefficient is the mean over
+     * permutations */
+    int n = 0;
+    for (int u = 0; u < 4; u++)
+        for (int v = u; v < 4; v++)
+            for (int w = v; w < 4; w++)
+                b[n++] = (det3(g[0][u], g[1][v], g[2][w]) + det3(g[0][u], g[1][w], g[2][v]) +
+                          det3(g[0][v], g[1][u], g[2][w]) + det3(g[0][v], g[1][w], g[2][u]) +
+                          det3(g[0][w], g[1][u], g[2][v]) + det3(g[0][w], g[1][v], g[2][u])) /
+                         6;
+}
+
+double pm_quality_scaled(const double X[30])
+{
+    double b[20], low = INFINITY, sum = 0;
+    pm_quality_bernstein(X, b);
+    for (int k = 0; k < 20; k++) {
+        low = fmin(low, b[k]);
+        sum += b[k];
+    }
+    return sum > 0 ? fmax(20 * low / sum, -1) : -1;
+}
+
+double pm_quality_mean_ratio(const double X[12])
+{
+    double u[3][3], sum = 0;
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++)
+            u[k][i] = X[3 * (k + 1) + i] - X[i];
+    for (int a = 0; a < 4; a++)
+        for (int b = a + 1; b < 4; b++)
+            for (int i = 0; i < 3; i++)
+                sum += (X[3 * a + i] - X[3 * b + i]) * (X[3 * a + i] - X[3 * b + i]);
+    const double volume = det3(u[0], u[1], u[2]) / 6;
+    return 12 * copysign(cbrt(9 * volume * volume), volume) / sum;
+}
+
+void pm_quality_gather(const double *x, const int32_t *tet, ptrdiff_t e, double X[30])
+{
+    for (int a = 0; a < 10; a++)
+        memcpy(X + 3 * a, x + 3 * (ptrdiff_t)tet[10 * e + a], 3 * sizeof *X);
+}

@@ -1,0 +1,142 @@
+#include "tools/tetmesh/tetmesh.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "common/base/log.h"
+#include "common/base/memory.h"
+#include "common/mechanics/extension.h"
+#include "tools/tetmesh/curve.h"
+#include "tools/tetmesh/shell.h"
+#include "tools/tetmesh/volume_gmsh.h"
+#include "tools/tetmesh/weights.h"
+
+/* A morphed mesh must keep this mean ratio in its straight tetrahedra (fresh ones have 0.3 or
+ * more). */
+static const double min_mean_ratio = 0.1;
+
+static enum pm_status generate(const struct pm_surfaces *s, double size, double timeout,
+                               struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_shell shell = {0};
+    struct pm_tetra tetra = {0};
+    struct pm_curve_report r;
+    int32_t *part = NULL;
+    PM_TRY(pm_shell_build(s, size, timeout, &shell, err));
+    PM_TRY(pm_shell_check(&shell, s->ns - 1, err));
+    PM_TRY(PM_NEW(part, shell.nt, err));
+    for (ptrdiff_t t = 0; t < shell.nt; t++)
+        part[t] = shell.tag[t] > 0 ? shell.tag[t] : 0;
+    const struct pm_gmsh_input in = {shell.nn, shell.nt, shell.x, shell.tri, part, (int32_t)s->ns};
+    PM_TRY(pm_gmsh_volume(&in, timeout, &tetra, err));
+    if (tetra.delaunay)
+        pm_warn("the HXT mesher failed (%s): meshed by Delaunay", tetra.why);
+    PM_TRY(pm_curve_mesh(s, &shell, &tetra, m, &r, err));
+    m->origin = PM_ORIGIN_GENERATED;
+    m->delaunay = tetra.delaunay;
+    pm_log(
+        1,
+        "%td of %td mid-side nodes on surfaces damped by up to %.3g (%td bad elements, %d sweeps)",
+        r.damped, r.surface_middles, m->max_damping, r.bad, r.sweeps);
+done:
+    pm_shell_release(&shell);
+    pm_free(tetra.x);
+    pm_free(tetra.tet);
+    pm_free(part);
+    return status;
+}
+
+/* Moves the nodes of m to the new control points. *good = 0 where its elements do not bear that. */
+static enum pm_status morph(const struct pm_surfaces *s, struct pm_mesh *m, int *good,
+                            struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_extension *ext = NULL;
+    double *phi = NULL, scaled, mean_ratio;
+    PM_TRY(PM_NEW(phi, 3 * m->N, err));
+    pm_surfaces_gather(s, phi);
+    PM_TRY(pm_extension_new(m, &ext, err));
+    PM_TRY(pm_mesh_morph(m, ext, phi, err));
+    pm_curve_quality(m, m->x, &scaled, &mean_ratio);
+    m->min_jacobian = scaled;
+    m->origin = PM_ORIGIN_MORPHED;
+    *good = scaled >= pm_curve_bound && mean_ratio >= min_mean_ratio;
+    pm_log(*good ? 1 : 0, "previous mesh %s: scaled Jacobian %.3f, mean ratio %.3f",
+           *good ? "morphed" : "given up", scaled, mean_ratio);
+done:
+    pm_extension_free(ext);
+    pm_free(phi);
+    return status;
+}
+
+/* Tries the previous mesh: *good = 1 and m holds it morphed, or 0 and m is empty. */
+static enum pm_status reuse(const char *path, const struct pm_surfaces *s, struct pm_mesh *m,
+                            int *good, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    int same = 0;
+    *good = 0;
+    PM_TRY(pm_mesh_load(path, 1, m, err));
+    if (m->failure[0] != '\0') {
+        pm_log(0, "previous mesh '%s' records a failure: meshing anew", path);
+    } else {
+        PM_TRY(pm_weights_same(m, s, &same, err));
+        if (same)
+            PM_TRY(morph(s, m, good, err));
+        else
+            pm_log(0, "previous mesh '%s' has another parametrisation: meshing anew", path);
+    }
+done:
+    if (status != PM_OK || !*good)
+        pm_mesh_release(m);
+    return status;
+}
+
+static enum pm_status make(const struct tetmesh_opts *o, const struct pm_surfaces *s,
+                           struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    int good = 0;
+    if (o->previous != NULL)
+        PM_TRY(reuse(o->previous, s, m, &good, err));
+    if (good)
+        return PM_OK;
+    status = generate(s, o->size > 0 ? o->size : s->pcase.mesh_size, o->timeout, m, err);
+    if ((status == PM_INPUT || status == PM_NUMERIC) && o->record_failure) {
+        pm_mesh_release(m);
+        snprintf(m->failure, sizeof m->failure, "tetmesh: %.490s", err->text);
+        pm_warn("%s", err->text);
+        *err = (struct pm_err){0};
+        status = PM_OK;
+    }
+done:
+    return status;
+}
+
+enum pm_status tetmesh_run(const struct tetmesh_opts *o, const struct pm_common *common,
+                           struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_surfaces s = {0};
+    struct pm_mesh m = {0};
+    struct pm_h5 *out = NULL;
+    const char *const extra[] = {o->previous, NULL};
+    PM_TRY(pm_surfaces_load(common->operands[0], &s, err));
+    PM_TRY(make(o, &s, &m, err));
+    pm_case_release(&m.pcase);
+    PM_TRY(pm_case_copy(&s.pcase, &m.pcase, err));
+    memcpy(m.reference_point, s.reference_point, sizeof m.reference_point);
+    if (m.failure[0] == '\0')
+        pm_log(1, "%td nodes, %td tetrahedra, %td unknowns, smallest scaled Jacobian %.3f", m.nn,
+               m.ne, 3 * m.nn, m.min_jacobian);
+    PM_TRY(pm_h5_create(common->output, "mesh", common, extra, &out, err));
+    PM_TRY(pm_mesh_write(out, &m, err));
+    status = pm_h5_commit(out, err);
+    out = NULL;
+done:
+    pm_h5_close(out);
+    pm_mesh_release(&m);
+    pm_surfaces_release(&s);
+    return status;
+}
