@@ -22,13 +22,32 @@ static void transform(const struct pm_symmetry *y, ptrdiff_t g, int inverse, int
     }
 }
 
-/* Deviations from the present value are averaged: a symmetric value stays bit for bit as it is, and
- * an even group of sign flips gives exact zeros on its planes. */
+/* Averages x over the operations that keep control point i: an even number of sign flips gives
+ * exact zeros. */
+static void settle(const struct pm_surfaces *s, ptrdiff_t i, int moved, double x[3])
+{
+    const struct pm_symmetry *y = &s->pcase.symmetry;
+    ptrdiff_t N = s->offset[s->ns], kept = 0;
+    double sum[3] = {0}, image[3];
+
+    for (ptrdiff_t g = 0; g < y->nops; g++) {
+        if (s->perm[g * N + i] != i)
+            continue;
+        kept++;
+        transform(y, g, 0, moved, x, image);
+        for (int j = 0; j < 3; j++)
+            sum[j] += image[j] - x[j];
+    }
+    for (int j = 0; j < 3; j++)
+        x[j] += sum[j] / (double)kept;
+}
+
+/* Deviations from the present value are averaged: a symmetric value stays bit for bit as it is. */
 static void average(const struct pm_surfaces *s, ptrdiff_t i, int moved, const double *x,
                     double mean[3])
 {
     const struct pm_symmetry *y = &s->pcase.symmetry;
-    ptrdiff_t N = s->offset[s->ns], fixed = 0;
+    ptrdiff_t N = s->offset[s->ns];
     double sum[3] = {0}, image[3];
 
     for (ptrdiff_t g = 0; g < y->nops; g++) {
@@ -36,20 +55,9 @@ static void average(const struct pm_surfaces *s, ptrdiff_t i, int moved, const d
         for (int j = 0; j < 3; j++)
             sum[j] += image[j] - x[3 * i + j];
     }
-    for (int j = 0; j < 3; j++) {
-        mean[j] = x[3 * i + j] + sum[j] / (double)y->nops;
-        sum[j] = 0;
-    }
-    for (ptrdiff_t g = 0; g < y->nops; g++) {
-        if (s->perm[g * N + i] != i)
-            continue;
-        fixed++;
-        transform(y, g, 0, moved, mean, image);
-        for (int j = 0; j < 3; j++)
-            sum[j] += image[j] - mean[j];
-    }
     for (int j = 0; j < 3; j++)
-        mean[j] += sum[j] / (double)fixed;
+        mean[j] = x[3 * i + j] + sum[j] / (double)y->nops;
+    settle(s, i, moved, mean);
 }
 
 static void symmetrise(const struct pm_surfaces *s, int moved, double *x)
@@ -69,6 +77,7 @@ static void symmetrise(const struct pm_surfaces *s, int moved, double *x)
         for (ptrdiff_t g = y->nops - 1; g >= 0;
              g--) { /* the first operation to a point has the last word */
             transform(y, g, 0, moved, mean, image);
+            settle(s, s->perm[g * N + i], moved, image);
             memcpy(&x[3 * (ptrdiff_t)s->perm[g * N + i]], image, sizeof image);
         }
     }

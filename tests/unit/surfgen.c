@@ -1,0 +1,152 @@
+/* Initial surfaces: exact orbits, projections, walls as the case asks. */
+#include "tools/surfgen/surfgen.h"
+
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/geometry/check.h"
+#include "common/geometry/symmetry.h"
+#include "tests/tap.h"
+
+static const char *const MIRRORS =
+    "[case]\nname = two\n[material]\nlaw = neo-hookean\nmu = 1\n"
+    "[body]\nshape = envelope\nheight = 60\nwall = 3\nweb = 6\naround = 36\nrows = 20\n"
+    "[chamber1]\nshape = bellows\ncenter = 12, 0, 30\nradius = 8\nlength = 50\namplitude = 1.5\n"
+    "pitch = 15\nspacing = 3.5\n"
+    "[symmetry]\ngroup = mirror-x mirror-y\n[actuation]\npmax = 0.1\n[workspace]\nmeasure = 2T\n"
+    "[mesh]\nsize = 3\n[constraints]\nwall_min = 2.4\ncurvature_max = 1\ncap_min = 3\n";
+
+static const char *const TURNS =
+    "[case]\nname = three\n[material]\nlaw = neo-hookean\nmu = 1\n"
+    "[body]\nshape = envelope\nheight = 60\nwall = 3\nweb = 6\naround = 36\nrows = 20\n"
+    "[chamber1]\nshape = capsule\ncenter = 11, 0, 30\nradius = 7\nlength = 50\nspacing = 3.5\n"
+    "[symmetry]\ngroup = c3 mirror-y\n[actuation]\npmax = 0.1\n[workspace]\nmeasure = 3T\n"
+    "[mesh]\nsize = 3\n[constraints]\nwall_min = 2.4\ncurvature_max = 1\ncap_min = 3\n";
+
+static double inner(const double *a, const double *b, ptrdiff_t n)
+{
+    double sum = 0;
+
+    for (ptrdiff_t i = 0; i < n; i++)
+        sum += a[i] * b[i];
+    return sum;
+}
+
+static int is_permutation(const int32_t *perm, ptrdiff_t n, ptrdiff_t twice)
+{
+    for (ptrdiff_t i = 0; i < n; i++)
+        if (perm[i] < 0 || perm[i] >= n || (twice && perm[perm[i]] != i))
+            return 0;
+    return 1;
+}
+
+static int on_mirror_plane_moves(const struct pm_surfaces *s, const double *phi, const double *v)
+{
+    int moves = 0;
+
+    for (ptrdiff_t i = 0; i < s->offset[s->ns]; i++)
+        moves |= phi[3 * i + 1] == 0 && v[3 * i + 1] != 0;
+    return moves;
+}
+
+/* defect: 0 for mirrors (sign flips are exact), rounding of coordinates below 60 mm for turns. */
+static void compare(const char *text, const char *name, ptrdiff_t nops, double defect)
+{
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0};
+    struct pm_check check;
+    double *phi = NULL, *v = NULL, *w = NULL;
+    ptrdiff_t n;
+
+    if (pm_case_parse(text, name, &c, &err) != PM_OK || pm_surfgen(&c, &s, &err) != PM_OK ||
+        PM_NEW(phi, 3 * s.offset[s.ns], &err) != PM_OK ||
+        PM_NEW(v, 3 * s.offset[s.ns], &err) != PM_OK ||
+        PM_NEW(w, 3 * s.offset[s.ns], &err) != PM_OK) {
+        ok(0, "%s: %s", name, err.text);
+        return;
+    }
+    n = 3 * s.offset[s.ns];
+    ok(c.symmetry.nops == nops, "%s: group of %td operations", name, nops);
+    for (ptrdiff_t g = 0; g < nops; g++)
+        ok(is_permutation(&s.perm[g * n / 3], n / 3, c.symmetry.Q[g][1] == 0),
+           "%s: operation %td permutes the control points", name, g);
+    pm_surfaces_gather(&s, phi);
+    near_abs("symmetry defect [mm]", pm_symmetry_defect(&s, phi), 0, defect);
+    memcpy(v, phi, (size_t)n * sizeof *v);
+    pm_symmetrise_points(&s, v);
+    if (defect == 0)
+        ok(memcmp(v, phi, (size_t)n * sizeof *v) == 0, "%s: exact orbits stay bit for bit", name);
+    for (ptrdiff_t i = 0; i < n; i++) {
+        v[i] = sin(0.7 * (double)i);
+        w[i] = cos(1.1 * (double)i);
+    }
+    double before = inner(v, w, n), after;
+    memcpy(phi, v, (size_t)n * sizeof *v);
+    pm_symmetrise_vectors(&s, v); /* P v */
+    after = inner(v, w, n);
+    pm_symmetrise_vectors(&s, w); /* P w: (P v).w = v.(P w) */
+    near_abs("projection of vectors is symmetric", inner(phi, w, n), after, 1e-11 * (double)n);
+    ok(fabs(before - after) > 1e-3, "%s: projection changes a general vector", name);
+    memcpy(w, v, (size_t)n * sizeof *v);
+    pm_symmetrise_vectors(&s, w);
+    near_array("projection of vectors is idempotent", w, v, n, defect == 0 ? 0 : 1e-15);
+    pm_surfaces_gather(&s, phi);
+    ok(!on_mirror_plane_moves(&s, phi, v), "%s: points on the plane y = 0 stay on it", name);
+    ok(pm_surfaces_check(&s, &check, &err) == PM_OK, "%s: surfaces are sound", name);
+    ok(check.wall.distance < 3.2 && check.coverage > 2, "%s: wall %.3f mm for 3 wanted, cover %.2f",
+       name, check.wall.distance, check.coverage);
+    pm_surfaces_release(&s);
+    pm_case_release(&c);
+    pm_free(phi);
+    pm_free(v);
+    pm_free(w);
+}
+
+/* Replaces one line of MIRRORS; the refusal must say `why`. */
+static void refuse(const char *from, const char *to, const char *why)
+{
+    char text[2048];
+    const char *at = strstr(MIRRORS, from);
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0};
+
+    snprintf(text, sizeof text, "%.*s%s%s", (int)(at - MIRRORS), MIRRORS, to, at + strlen(from));
+    ok(pm_case_parse(text, "bad", &c, &err) == PM_OK && pm_surfgen(&c, &s, &err) == PM_INPUT &&
+           strstr(err.text, why) != NULL && s.s == NULL,
+       "'%s' is refused: %s", to, err.text);
+    pm_case_release(&c);
+    pm_surfaces_release(&s);
+}
+
+/* Moves chamber 1 along x. */
+static void displace(double by, const char *why)
+{
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0};
+    struct pm_check check;
+
+    if (pm_case_parse(MIRRORS, "moved", &c, &err) != PM_OK || pm_surfgen(&c, &s, &err) != PM_OK) {
+        ok(0, "%s", err.text);
+        return;
+    }
+    for (ptrdiff_t i = 0; i < s.s[1].n; i++)
+        s.s[1].phi[3 * i] += by;
+    ok(pm_surfaces_check(&s, &check, &err) == PM_INPUT && strstr(err.text, why) != NULL,
+       "moved by %g mm: %s", by, err.text);
+    pm_case_release(&c);
+    pm_surfaces_release(&s);
+}
+
+int main(void)
+{
+    compare(MIRRORS, "mirrors", 4, 0);
+    compare(TURNS, "turns", 6, 1e-13);
+    refuse("wall = 3", "wall = 2.5", "wall between");
+    displace(-6, "chambers 1 and 2 meet");
+    displace(8, "leaves the body");
+    displace(60, "leaves the body");
+    return tap_done();
+}
