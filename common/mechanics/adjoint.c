@@ -5,8 +5,8 @@
 #include "common/base/memory.h"
 #include "common/mechanics/tensor.h"
 
-enum pm_status pm_jacobian(struct pm_model *m, const struct pm_config *c, double scale, double *Jq, double *J,
-                           struct pm_err *err)
+enum pm_status pm_jacobian(struct pm_model *m, const struct pm_config *c, double scale, double *Jq,
+                           double *J, struct pm_err *err)
 {
     enum pm_status status;
     ptrdiff_t nc = m->mesh->nc, nq = m->nq;
@@ -46,12 +46,13 @@ struct adjoint {
     struct pm_rotation rot;
     ptrdiff_t n; /* columns in use */
     struct column col[PM_MAX_CHAMBERS];
-    double *v;       /* q-vectors: v1 of the columns, then v2 ((n + 1) x nq) */
-    double *field;   /* storage of the nodal fields */
+    double *v;     /* q-vectors: v1 of the columns, then v2 ((n + 1) x nq) */
+    double *field; /* storage of the nodal fields */
 };
 
 /* D = sum_ij M_ij v_i w_j of second derivatives */
-static void contract2(const struct pm_rotation *rot, const double v[3], const double w[3], double D[9])
+static void contract2(const struct pm_rotation *rot, const double v[3], const double w[3],
+                      double D[9])
 {
     memset(D, 0, 9 * sizeof *D);
     for (int i = 0; i < 3; i++)
@@ -86,14 +87,16 @@ static void prepare_column(struct adjoint *A, struct column *k, const double *v1
     for (ptrdiff_t i = 0; i < 3 * nn; i++)
         k->s[i] += k->KJ[i];
     pm_model_volume_apply(m, A->cfg, k->r, -A->scale, k->xv, k->s);
-    double *dV = k->KJ; /* KJ = K_x xJ - scale dV, through a sign: first dV, then the product is added */
+    double *dV =
+        k->KJ; /* KJ = K_x xJ - scale dV, through a sign: first dV, then the product is added */
     pm_model_volume_gradient(m, A->cfg, k->r, dV);
     for (ptrdiff_t i = 0; i < 3 * nn; i++)
         dV[i] *= -A->scale;
 }
 
 /* rhs -= D3 Pi[v1, J, .] + dK/dp_r v1 (q-vector). */
-static void subtract_second_order(struct adjoint *A, const struct column *k, double *work, double *rhs)
+static void subtract_second_order(struct adjoint *A, const struct column *k, double *work,
+                                  double *rhs)
 {
     struct pm_model *m = A->m;
     pm_model_reduce(m, A->cfg, k->s, work);
@@ -135,17 +138,20 @@ static enum pm_status allocate(struct adjoint *A, const double *b, struct pm_err
     PM_TRY(PM_NEW(A->field, 6 * A->n * size, err));
     for (ptrdiff_t k = 0; k < A->n; k++) {
         double *x = A->field + k * size, **to[6] = {&A->col[k].xv, &A->col[k].xJ, &A->col[k].c,
-                                                     &A->col[k].KJ, &A->col[k].Kv, &A->col[k].s};
+                                                    &A->col[k].KJ, &A->col[k].Kv, &A->col[k].s};
         for (int i = 0; i < 6; i++)
-            *to[i] = x + i * A->n * size; /* xv of all columns adjacent, xJ likewise: pm_model_shape wants that */
+            *to[i] =
+                x +
+                i * A->n *
+                    size; /* xv of all columns adjacent, xJ likewise: pm_model_shape wants that */
     }
 done:
     return status;
 }
 
 /* Solves for v1_r and v2; fills the columns. */
-static enum pm_status solve_adjoints(struct adjoint *A, const double *Jq, const double a[6], const double *b,
-                                     struct pm_err *err)
+static enum pm_status solve_adjoints(struct adjoint *A, const double *Jq, const double a[6],
+                                     const double *b, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_model *m = A->m;
@@ -176,7 +182,8 @@ done:
 }
 
 /* Rows of nodes whose position depends on X explicitly: clamped, fixed components, tip. */
-static void add_explicit(const struct adjoint *A, const double *s, const double *v2t, double *D, double D_ref[3])
+static void add_explicit(const struct adjoint *A, const double *s, const double *v2t, double *D,
+                         double D_ref[3])
 {
     const struct pm_model *m = A->m;
     double R2[9], Rv[PM_MAX_CHAMBERS][9], RJ[PM_MAX_CHAMBERS][9], RvJ[PM_MAX_CHAMBERS][9];
@@ -215,9 +222,9 @@ static void add_explicit(const struct adjoint *A, const double *s, const double 
     }
 }
 
-enum pm_status pm_adjoint(struct pm_model *m, const struct pm_config *c, const double *p, const double *f, double scale,
-                          const double *Jq, const double a[6], const double *b, double *D, double D_ref[3],
-                          struct pm_err *err)
+enum pm_status pm_adjoint(struct pm_model *m, const struct pm_config *c, const double *p,
+                          const double *f, double scale, const double *Jq, const double a[6],
+                          const double *b, double *D, double D_ref[3], struct pm_err *err)
 {
     enum pm_status status;
     struct adjoint A = {.m = m, .cfg = c, .p = p, .f = f, .scale = scale};

@@ -18,7 +18,8 @@ static void field(const double v[18], const double N[6], const double dN[12], do
 }
 
 /* out = a x b + c x d */
-static void cross_sum(const double *a, const double *b, const double *c, const double *d, double out[3])
+static void cross_sum(const double *a, const double *b, const double *c, const double *d,
+                      double out[3])
 {
     double s[3], t[3];
     pm_vcross(a, b, s);

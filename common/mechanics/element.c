@@ -7,12 +7,14 @@
 
 enum { NQ = PM_TET_POINTS };
 
-/* Deformation at the points: F = I + grad u, C = cof F, J - 1 without cancellation; the element mean of J - 1. */
+/* Deformation at the points: F = I + grad u, C = cof F, J - 1 without cancellation; the element
+ * mean of J - 1. */
 struct kinematics {
     double F[NQ][9], C[NQ][9], Jm1[NQ], mean, V;
 };
 
-enum pm_status pm_element_blend(const char *name, const struct pm_law *law, double *blend, struct pm_err *err)
+enum pm_status pm_element_blend(const char *name, const struct pm_law *law, double *blend,
+                                struct pm_err *err)
 {
     double b = 2.0 * law->mu / law->kappa;
     if (strcmp(name, "tet10-blend") == 0)
@@ -22,7 +24,8 @@ enum pm_status pm_element_blend(const char *name, const struct pm_law *law, doub
     else if (strcmp(name, "tet10-mean") == 0)
         *blend = 0.0;
     else
-        return pm_fail(err, PM_USAGE, "unknown element '%s', expected tet10-blend, tet10 or tet10-mean", name);
+        return pm_fail(err, PM_USAGE,
+                       "unknown element '%s', expected tet10-blend, tet10 or tet10-mean", name);
     return PM_OK;
 }
 
@@ -54,7 +57,8 @@ static void scatter(double w, const double S[9], const double *dN, double *f)
 {
     for (int a = 0; a < 10; a++)
         for (int i = 0; i < 3; i++)
-            f[3 * a + i] += w * (S[3 * i] * dN[3 * a] + S[3 * i + 1] * dN[3 * a + 1] + S[3 * i + 2] * dN[3 * a + 2]);
+            f[3 * a + i] += w * (S[3 * i] * dN[3 * a] + S[3 * i + 1] * dN[3 * a + 1] +
+                                 S[3 * i + 2] * dN[3 * a + 2]);
 }
 
 double pm_element_energy(const struct pm_element *el, const double *u, double *f, double *min_det)
@@ -88,7 +92,8 @@ static void add_point(double w, const double A[81], const double *dN, double *K)
         const double *n = dN + 3 * b;
         for (int k = 0; k < 9; k++)
             for (int j = 0; j < 3; j++)
-                T[3 * k + j] = w * (A[9 * k + 3 * j] * n[0] + A[9 * k + 3 * j + 1] * n[1] + A[9 * k + 3 * j + 2] * n[2]);
+                T[3 * k + j] = w * (A[9 * k + 3 * j] * n[0] + A[9 * k + 3 * j + 1] * n[1] +
+                                    A[9 * k + 3 * j + 2] * n[2]);
         for (int a = 0; a <= b; a++) {
             const double *m = dN + 3 * a;
             for (int i = 0; i < 3; i++)
@@ -99,7 +104,8 @@ static void add_point(double w, const double A[81], const double *dN, double *K)
     }
 }
 
-void pm_element_tangent(const struct pm_element *el, const double *u, const double *pressure, double *K)
+void pm_element_tangent(const struct pm_element *el, const double *u, const double *pressure,
+                        double *K)
 {
     struct kinematics k;
     double kappa = el->law->kappa, B[30] = {0};
@@ -123,7 +129,8 @@ void pm_element_tangent(const struct pm_element *el, const double *u, const doub
             K[30 * m + n] = K[30 * n + m];
 }
 
-void pm_element_pressure(const struct pm_element *el, const double *u, const double *du, double *pressure)
+void pm_element_pressure(const struct pm_element *el, const double *u, const double *du,
+                         double *pressure)
 {
     struct kinematics k;
     double dJ[NQ], mean = 0.0;
@@ -158,13 +165,14 @@ void pm_element_apply(const struct pm_element *el, const double *u, const double
     }
 }
 
-/* Gradients G, H of two directions with j1 = C:G and j2 = (F x G):H at the points, and their element means. */
+/* Gradients G, H of two directions with j1 = C:G and j2 = (F x G):H at the points, and their
+ * element means. */
 struct variation {
     double G[NQ][9], H[NQ][9], FG[NQ][9], FH[NQ][9], jG[NQ], jH[NQ], j2[NQ], tG, tH, t2;
 };
 
-static void vary(const struct pm_element *el, const struct kinematics *k, const double *v, const double *w,
-                 struct variation *d)
+static void vary(const struct pm_element *el, const struct kinematics *k, const double *v,
+                 const double *w, struct variation *d)
 {
     d->tG = d->tH = d->t2 = 0.0;
     for (int q = 0; q < NQ; q++) {
@@ -183,8 +191,9 @@ static void vary(const struct pm_element *el, const struct kinematics *k, const 
 }
 
 /* T(G, H) with the volumetric part kappa (piGH C + piG F x H + piH F x G + pi G x H). */
-static void third_at(const struct pm_element *el, const struct kinematics *k, const struct variation *d, int q,
-                     double piG, double piH, double piGH, double pi, double T[9])
+static void third_at(const struct pm_element *el, const struct kinematics *k,
+                     const struct variation *d, int q, double piG, double piH, double piGH,
+                     double pi, double T[9])
 {
     double GH[9];
     pm_law_third(el->law, k->F[q], d->G[q], d->H[q], T);
@@ -195,7 +204,8 @@ static void third_at(const struct pm_element *el, const struct kinematics *k, co
     pm_axpy9(pi, GH, T);
 }
 
-void pm_element_third(const struct pm_element *el, const double *u, const double *v, const double *w, double *f)
+void pm_element_third(const struct pm_element *el, const double *u, const double *v,
+                      const double *w, double *f)
 {
     struct kinematics k;
     struct variation d;
@@ -204,8 +214,9 @@ void pm_element_third(const struct pm_element *el, const double *u, const double
     vary(el, &k, v, w, &d);
     for (int q = 0; q < NQ; q++) {
         double T[9];
-        third_at(el, &k, &d, q, kappa * (b * d.jG[q] + (1 - b) * d.tG), kappa * (b * d.jH[q] + (1 - b) * d.tH),
-                 kappa * (b * d.j2[q] + (1 - b) * d.t2), pressure_at(el, &k, q), T);
+        third_at(el, &k, &d, q, kappa * (b * d.jG[q] + (1 - b) * d.tG),
+                 kappa * (b * d.jH[q] + (1 - b) * d.tH), kappa * (b * d.j2[q] + (1 - b) * d.t2),
+                 pressure_at(el, &k, q), T);
         scatter(el->w[q], T, el->dN + 30 * q, f);
     }
 }
@@ -227,8 +238,8 @@ static void add_trace(double s, double M[9])
 }
 
 /* S = A:G of the pointwise part W_iso + b U. */
-static void apply_pointwise(const struct pm_element *el, const struct kinematics *k, int q, const double G[9],
-                            const double FG[9], double jG, double S[9])
+static void apply_pointwise(const struct pm_element *el, const struct kinematics *k, int q,
+                            const double G[9], const double FG[9], double jG, double S[9])
 {
     double bk = el->blend * el->law->kappa;
     pm_law_apply(el->law, k->F[q], G, S);
@@ -237,8 +248,8 @@ static void apply_pointwise(const struct pm_element *el, const struct kinematics
 }
 
 /* Second-order part of the Eshelby-type tensor for one pair (v, h). */
-static void shape_second(const struct pm_element *el, const struct kinematics *k, const double *v, const double *h,
-                         double M[NQ][9])
+static void shape_second(const struct pm_element *el, const struct kinematics *k, const double *v,
+                         const double *h, double M[NQ][9])
 {
     struct variation d;
     double bk = el->blend * el->law->kappa, mk = (1.0 - el->blend) * el->law->kappa;
@@ -256,11 +267,12 @@ static void shape_second(const struct pm_element *el, const struct kinematics *k
     }
 }
 
-void pm_element_shape(const struct pm_element *el, const double *u, const double *g, int n, const double *v,
-                      const double *h, double *D)
+void pm_element_shape(const struct pm_element *el, const double *u, const double *g, int n,
+                      const double *v, const double *h, double *D)
 {
     struct kinematics k;
-    double M[NQ][9], jG[NQ], tG = 0.0, bk = el->blend * el->law->kappa, mk = (1.0 - el->blend) * el->law->kappa;
+    double M[NQ][9], jG[NQ], tG = 0.0, bk = el->blend * el->law->kappa,
+                             mk = (1.0 - el->blend) * el->law->kappa;
     memset(M, 0, sizeof M);
     deform(el, u, &k);
     for (int q = 0; q < NQ; q++) {

@@ -7,23 +7,27 @@
 #include "common/base/log.h"
 #include "common/base/memory.h"
 
-const struct pm_solve_options pm_solve_default = {
-    .tolerance = 1e-8, .first_step = 1.0 / 3, .min_step = 1.0 / 512, .min_det = 0.2, .max_newton = 12};
+const struct pm_solve_options pm_solve_default = {.tolerance = 1e-8,
+                                                  .first_step = 1.0 / 3,
+                                                  .min_step = 1.0 / 512,
+                                                  .min_det = 0.2,
+                                                  .max_newton = 12};
 
 /* Tolerance of load steps on the way: they only have to stay on the path. */
 static const double path_tolerance = 1e-3;
-/* Below this residual the factor at hand serves for further corrections while each gains a factor of 10. */
+/* Below this residual the factor at hand serves for further corrections while each gains a factor
+ * of 10. */
 static const double chord_residual = 1e-3;
 
 struct solver {
     struct pm_model *m;
     const struct pm_solve_options *o;
     struct pm_solve_report *r;
-    double *p;              /* pressures of the load step (nc) */
-    double *f, *volume;     /* nodal forces (nn x 3), chamber volumes (nc) */
-    double *g, *dq, *load;  /* q-vectors: residual, correction, sum_r p_r T^T dV_r at full load */
-    double *nodal;          /* (nn x 3) */
-    double *pressure;       /* MIP (ne x 4) */
+    double *p;             /* pressures of the load step (nc) */
+    double *f, *volume;    /* nodal forces (nn x 3), chamber volumes (nc) */
+    double *g, *dq, *load; /* q-vectors: residual, correction, sum_r p_r T^T dV_r at full load */
+    double *nodal;         /* (nn x 3) */
+    double *pressure;      /* MIP (ne x 4) */
     struct pm_config trial;
     double Pi, load_norm;
 };
@@ -69,8 +73,8 @@ static int evaluate(struct solver *s, const struct pm_config *c)
 }
 
 /* Generalised load at c for pressures p. */
-static enum pm_status load_at(struct solver *s, const struct pm_config *c, const double *p, double *q,
-                              struct pm_err *err)
+static enum pm_status load_at(struct solver *s, const struct pm_config *c, const double *p,
+                              double *q, struct pm_err *err)
 {
     enum pm_status status;
     double *one = NULL;
@@ -89,8 +93,8 @@ done:
     return status;
 }
 
-/* Moves c by a fraction of dq that lowers the potential (Armijo 1e-4), or, where rounding hides the potential, the
- * residual. Leaves f, g, Pi at the new c. */
+/* Moves c by a fraction of dq that lowers the potential (Armijo 1e-4), or, where rounding hides the
+ * potential, the residual. Leaves f, g, Pi at the new c. */
 static enum outcome search_line(struct solver *s, struct pm_config *c, double g0)
 {
     struct pm_model *m = s->m;
@@ -111,7 +115,8 @@ static enum outcome search_line(struct solver *s, struct pm_config *c, double g0
 }
 
 /* Corrections with the factor at hand while they gain a factor of 10 each; keeps the best c. */
-static enum pm_status chord(struct solver *s, struct pm_config *c, double tolerance, double *g0, struct pm_err *err)
+static enum pm_status chord(struct solver *s, struct pm_config *c, double tolerance, double *g0,
+                            struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     while (*g0 > tolerance) {
@@ -135,8 +140,8 @@ done:
 }
 
 /* Newton at the pressures s->p from c. */
-static enum pm_status newton(struct solver *s, struct pm_config *c, double tolerance, enum outcome *out,
-                             struct pm_err *err)
+static enum pm_status newton(struct solver *s, struct pm_config *c, double tolerance,
+                             enum outcome *out, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_model *m = s->m;
@@ -179,8 +184,9 @@ done:
 }
 
 /* One load step from base (load parameter lambda) with the predictor `s->load`: c, or a refusal. */
-static enum pm_status load_step(struct solver *s, const struct path *path, const struct pm_config *base, double lambda,
-                                double next, struct pm_config *c, enum outcome *out, struct pm_err *err)
+static enum pm_status load_step(struct solver *s, const struct path *path,
+                                const struct pm_config *base, double lambda, double next,
+                                struct pm_config *c, enum outcome *out, struct pm_err *err)
 {
     set_pressure(s, path, next);
     s->r->lambda = next;
@@ -188,10 +194,12 @@ static enum pm_status load_step(struct solver *s, const struct path *path, const
     return newton(s, c, next < 1.0 ? path_tolerance : s->o->tolerance, out, err);
 }
 
-/* Predictor at base: K^-1 T^T sum_r (to - from)_r dV_r. The factor at hand serves where it belongs to the last
- * Newton iterate of base; else it is made anew, and its failure is the end of a stable branch. */
-static enum pm_status predict(struct solver *s, const struct path *path, const struct pm_config *base, double lambda,
-                              int fresh, enum outcome *out, struct pm_err *err)
+/* Predictor at base: K^-1 T^T sum_r (to - from)_r dV_r. The factor at hand serves where it belongs
+ * to the last Newton iterate of base; else it is made anew, and its failure is the end of a stable
+ * branch. */
+static enum pm_status predict(struct solver *s, const struct path *path,
+                              const struct pm_config *base, double lambda, int fresh,
+                              enum outcome *out, struct pm_err *err)
 {
     enum pm_status status;
     double *dp = NULL;
@@ -214,8 +222,8 @@ done:
 }
 
 /* Continuation from the equilibrium c at path->from to path->to. */
-static enum pm_status follow_path(struct solver *s, const struct path *path, int fresh, struct pm_config *c,
-                                  enum outcome *out, struct pm_err *err)
+static enum pm_status follow_path(struct solver *s, const struct path *path, int fresh,
+                                  struct pm_config *c, enum outcome *out, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_config base = {0};
@@ -265,14 +273,17 @@ done:
 }
 
 /* Exact tangent at the solution: stability, and the factor for the Jacobian. */
-static enum pm_status finish(struct solver *s, const double *p, struct pm_config *c, struct pm_err *err)
+static enum pm_status finish(struct solver *s, const double *p, struct pm_config *c,
+                             struct pm_err *err)
 {
     int definite;
     memcpy(s->p, p, (size_t)s->m->mesh->nc * sizeof *p);
     evaluate(s, c);
     enum pm_status status = pm_model_factor(s->m, c, p, s->f, NULL, &definite, err);
     if (status == PM_OK && !definite)
-        status = pm_fail(err, PM_NUMERIC, "equilibrium at full load is unstable: its tangent is not positive definite");
+        status =
+            pm_fail(err, PM_NUMERIC,
+                    "equilibrium at full load is unstable: its tangent is not positive definite");
     s->r->energy = s->Pi;
     for (ptrdiff_t r = 0; r < s->m->mesh->nc; r++)
         s->r->energy += p[r] * s->volume[r];
@@ -280,8 +291,8 @@ static enum pm_status finish(struct solver *s, const double *p, struct pm_config
 }
 
 /* From a guess at pressures `at`: corrected there, then followed to p. */
-static enum pm_status start_from_guess(struct solver *s, const double *at, const double *p, struct pm_config *c,
-                                       enum outcome *out, struct pm_err *err)
+static enum pm_status start_from_guess(struct solver *s, const double *at, const double *p,
+                                       struct pm_config *c, enum outcome *out, struct pm_err *err)
 {
     enum pm_status status;
     const struct path path = {at, p, 1.0};
@@ -294,15 +305,17 @@ static enum pm_status start_from_guess(struct solver *s, const double *at, const
     s->r->warm = *out == CONVERGED;
     if (*out != CONVERGED) {
         s->r->backoffs++;
-        pm_warn("the guess does not lead to an equilibrium (%s): starting from the undeformed state", s->r->why);
+        pm_warn(
+            "the guess does not lead to an equilibrium (%s): starting from the undeformed state",
+            s->r->why);
     }
 done:
     return status;
 }
 
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
-                              const double *guess_at, struct pm_config *c, double *volume, double *f,
-                              struct pm_solve_report *r, struct pm_err *err)
+                              const double *guess_at, struct pm_config *c, double *volume,
+                              double *f, struct pm_solve_report *r, struct pm_err *err)
 {
     enum pm_status status;
     enum outcome out = REFUSED;
@@ -329,7 +342,9 @@ enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct 
     if (out == CONVERGED)
         PM_TRY(finish(&s, p, c, err));
     else
-        status = pm_fail(err, PM_NUMERIC, "no stable equilibrium beyond load %.4f of the pressures: %s", r->lambda, r->why);
+        status =
+            pm_fail(err, PM_NUMERIC, "no stable equilibrium beyond load %.4f of the pressures: %s",
+                    r->lambda, r->why);
 done:
     r->factorisations = m->factorisations - before;
     pm_progress("%s", "");

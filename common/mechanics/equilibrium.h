@@ -1,35 +1,38 @@
-/* Stable static equilibrium by load continuation: tangent predictor, Newton with mixed pressures (MIP), line search
- * on the potential, step halving where the factor, an inverted element or the line search says no. */
+/* Stable static equilibrium by load continuation: tangent predictor, Newton with mixed pressures
+ * (MIP), line search on the potential, step halving where the factor, an inverted element or the
+ * line search says no. */
 #ifndef PM_EQUILIBRIUM_H
 #define PM_EQUILIBRIUM_H
 
 #include "common/mechanics/model.h"
 
 struct pm_solve_options {
-    double tolerance;   /* |g|_inf / |pressure load|_inf at the solution */
-    double first_step;  /* of the load parameter, 0..1 */
-    double min_step;    /* below it the path has ended */
-    double min_det;     /* a trial with smaller det F is refused */
-    int max_newton;     /* per load step */
+    double tolerance;  /* |g|_inf / |pressure load|_inf at the solution */
+    double first_step; /* of the load parameter, 0..1 */
+    double min_step;   /* below it the path has ended */
+    double min_det;    /* a trial with smaller det F is refused */
+    int max_newton;    /* per load step */
 };
 
 extern const struct pm_solve_options pm_solve_default;
 
 struct pm_solve_report {
     long load_steps, newton_steps, factorisations, backoffs;
-    int warm;          /* 1: the guess led to the solution, 0: from the undeformed state */
-    double lambda;     /* load parameter reached */
-    double residual;   /* relative, at the solution */
+    int warm;        /* 1: the guess led to the solution, 0: from the undeformed state */
+    double lambda;   /* load parameter reached */
+    double residual; /* relative, at the solution */
     double min_det_F;
-    double energy;     /* strain energy [mJ] */
-    char why[192];     /* last reason of a back-off */
+    double energy; /* strain energy [mJ] */
+    char why[192]; /* last reason of a back-off */
 };
 
-/* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess_at (nc) [MPa] or NULL: c holds a guess of the
- * equilibrium at those pressures, followed from there to p; a guess that fails is reported and the path restarts. PM_NUMERIC with the load reached and the last reason if there is none.
- * volume (nc) and f (nn x 3): chamber volumes and nodal forces at the solution. */
+/* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess_at
+ * (nc) [MPa] or NULL: c holds a guess of the equilibrium at those pressures, followed from there to
+ * p; a guess that fails is reported and the path restarts. PM_NUMERIC with the load reached and the
+ * last reason if there is none. volume (nc) and f (nn x 3): chamber volumes and nodal forces at the
+ * solution. */
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
-                              const double *guess_at, struct pm_config *c, double *volume, double *f, struct pm_solve_report *r,
-                              struct pm_err *err);
+                              const double *guess_at, struct pm_config *c, double *volume,
+                              double *f, struct pm_solve_report *r, struct pm_err *err);
 
 #endif

@@ -51,14 +51,17 @@ static enum pm_status factor_laplace(struct pm_extension *e, struct pm_err *err)
     PM_TRY(pm_cholesky_new(p->n, p->ptr, p->row, &e->factor, err));
     PM_TRY(pm_cholesky_factor(e->factor, value, &definite, &column, err));
     if (!definite)
-        status = pm_fail(err, PM_NUMERIC, "Laplace extension is not positive definite (equation %td): inverted elements?",
-                         column);
+        status =
+            pm_fail(err, PM_NUMERIC,
+                    "Laplace extension is not positive definite (equation %td): inverted elements?",
+                    column);
 done:
     pm_free(value);
     return status;
 }
 
-enum pm_status pm_extension_new(const struct pm_mesh *m, struct pm_extension **out, struct pm_err *err)
+enum pm_status pm_extension_new(const struct pm_mesh *m, struct pm_extension **out,
+                                struct pm_err *err)
 {
     enum pm_status status;
     uint8_t *interior = NULL;
@@ -139,7 +142,8 @@ void pm_extension_free(struct pm_extension *e)
     pm_free(e);
 }
 
-enum pm_status pm_mesh_morph(struct pm_mesh *m, struct pm_extension *e, const double *phi, struct pm_err *err)
+enum pm_status pm_mesh_morph(struct pm_mesh *m, struct pm_extension *e, const double *phi,
+                             struct pm_err *err)
 {
     enum pm_status status;
     double *d = NULL;

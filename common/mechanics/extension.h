@@ -1,5 +1,6 @@
-/* Extension of surface motion to all nodes of a mesh [theory 5]: three scalar quadratic Laplace problems on
- * the generated mesh, X_I = X0_I + Ext (X_S - X0_S); every boundary node (surface, cap) is given. */
+/* Extension of surface motion to all nodes of a mesh [theory 5]: three scalar quadratic Laplace
+ * problems on the generated mesh, X_I = X0_I + Ext (X_S - X0_S); every boundary node (surface, cap)
+ * is given. */
 #ifndef PM_EXTENSION_H
 #define PM_EXTENSION_H
 
@@ -7,15 +8,19 @@
 
 struct pm_extension;
 
-enum pm_status pm_extension_new(const struct pm_mesh *m, struct pm_extension **e, struct pm_err *err);
+enum pm_status pm_extension_new(const struct pm_mesh *m, struct pm_extension **e,
+                                struct pm_err *err);
 /* d (nn x 3): values at boundary nodes are given, values at interior nodes are filled. */
 enum pm_status pm_extension_apply(struct pm_extension *e, double *d, struct pm_err *err);
-/* Transpose: D (nn x 3) nodal gradient; D_S -= K_SI K_II^-1 D_I on boundary nodes, interior rows cleared. */
+/* Transpose: D (nn x 3) nodal gradient; D_S -= K_SI K_II^-1 D_I on boundary nodes, interior rows
+ * cleared. */
 enum pm_status pm_extension_transpose(struct pm_extension *e, double *D, struct pm_err *err);
 void pm_extension_free(struct pm_extension *e);
 
-/* Moves the surface nodes of m to W phi (N x 3) and the others by the extension, from m->x_generated: m->x. */
-enum pm_status pm_mesh_morph(struct pm_mesh *m, struct pm_extension *e, const double *phi, struct pm_err *err);
+/* Moves the surface nodes of m to W phi (N x 3) and the others by the extension, from
+ * m->x_generated: m->x. */
+enum pm_status pm_mesh_morph(struct pm_mesh *m, struct pm_extension *e, const double *phi,
+                             struct pm_err *err);
 /* g (N x 3) = W^T D over surface nodes. */
 void pm_mesh_pull_back(const struct pm_mesh *m, const double *D, double *g);
 

@@ -36,11 +36,13 @@ enum pm_status pm_law_set(struct pm_law *law, const char *name, const double *c,
             if (law->kind == PM_LAW_MOONEY_RIVLIN)
                 law->mu += 2 * c[1];
             if (!(law->mu > 0) || !(kappa > 0))
-                return pm_fail(err, PM_INPUT, "material: found mu = %g, kappa = %g MPa, expected both > 0",
+                return pm_fail(err, PM_INPUT,
+                               "material: found mu = %g, kappa = %g MPa, expected both > 0",
                                law->mu, kappa);
             return PM_OK;
         }
-    return pm_fail(err, PM_INPUT, "unknown material law '%s', expected neo-hookean, mooney-rivlin or yeoh", name);
+    return pm_fail(err, PM_INPUT,
+                   "unknown material law '%s', expected neo-hookean, mooney-rivlin or yeoh", name);
 }
 
 static void invariants_at(const double F[9], struct invariants *v)
@@ -89,15 +91,17 @@ static void yeoh_term(struct derivatives *d, const double *c, const double *i)
 {
     struct derivatives y = {0};
     power_term(&y, I1, 1.0, 2.0 / 3, i);
-    double f1 = c[0] + 2 * c[1] * y.w + 3 * c[2] * y.w * y.w, f2 = 2 * c[1] + 6 * c[2] * y.w, f3 = 6 * c[2];
+    double f1 = c[0] + 2 * c[1] * y.w + 3 * c[2] * y.w * y.w, f2 = 2 * c[1] + 6 * c[2] * y.w,
+           f3 = 6 * c[2];
     d->w = y.w * (c[0] + y.w * (c[1] + y.w * c[2]));
     for (int a = 0; a < NI; a++) {
         d->d1[a] = f1 * y.d1[a];
         for (int b = 0; b < NI; b++) {
             d->d2[a][b] = f2 * y.d1[a] * y.d1[b] + f1 * y.d2[a][b];
             for (int k = 0; k < NI; k++)
-                d->d3[a][b][k] = f3 * y.d1[a] * y.d1[b] * y.d1[k] + f1 * y.d3[a][b][k] +
-                                 f2 * (y.d2[a][b] * y.d1[k] + y.d2[a][k] * y.d1[b] + y.d2[b][k] * y.d1[a]);
+                d->d3[a][b][k] =
+                    f3 * y.d1[a] * y.d1[b] * y.d1[k] + f1 * y.d3[a][b][k] +
+                    f2 * (y.d2[a][b] * y.d1[k] + y.d2[a][k] * y.d1[b] + y.d2[b][k] * y.d1[a]);
         }
     }
 }
@@ -195,9 +199,10 @@ void pm_law_apply(const struct pm_law *law, const double F[9], const double G[9]
     }
 }
 
-/* t_I2(G, H) = 2 G x (F x H) + 2 H x (F x G) + 2 F x (G x H), scaled and added to T; FG = F x G, FH = F x H. */
-static void add_third_I2(double s, const double F[9], const double G[9], const double H[9], const double FG[9],
-                         const double FH[9], double T[9])
+/* t_I2(G, H) = 2 G x (F x H) + 2 H x (F x G) + 2 F x (G x H), scaled and added to T; FG = F x G, FH
+ * = F x H. */
+static void add_third_I2(double s, const double F[9], const double G[9], const double H[9],
+                         const double FG[9], const double FH[9], double T[9])
 {
     double a[9], GH[9];
     pm_cross9(G, FH, a);

@@ -26,12 +26,14 @@ struct pm_element pm_model_element(const struct pm_model *m, ptrdiff_t e)
 }
 
 /* Deformed positions of a face relative to the origin of the volumes. */
-static void face_positions(const struct pm_model *m, const struct pm_config *c, ptrdiff_t f, double x[18])
+static void face_positions(const struct pm_model *m, const struct pm_config *c, ptrdiff_t f,
+                           double x[18])
 {
     const int32_t *t = m->mesh->tri + 6 * f;
     for (int a = 0; a < 6; a++)
         for (int i = 0; i < 3; i++)
-            x[3 * a + i] = m->mesh->x[3 * (ptrdiff_t)t[a] + i] + c->u[3 * (ptrdiff_t)t[a] + i] - m->origin[i];
+            x[3 * a + i] =
+                m->mesh->x[3 * (ptrdiff_t)t[a] + i] + c->u[3 * (ptrdiff_t)t[a] + i] - m->origin[i];
 }
 
 /* ---- construction ---- */
@@ -74,7 +76,8 @@ static enum pm_status build_pattern(struct pm_model *m, struct pm_err *err)
         for (int a = 0; a < 10 && tip; a++)
             couples[t[a]] = 1;
     }
-    PM_TRY(pm_pattern_new(mesh->nn, mesh->ne, mesh->tet, use, couples, 3, m->tail, &m->pattern, err));
+    PM_TRY(
+        pm_pattern_new(mesh->nn, mesh->ne, mesh->tet, use, couples, 3, m->tail, &m->pattern, err));
     m->nq = m->pattern.n;
     PM_TRY(PM_NEW(m->fixed, m->nq, err));
     PM_TRY(PM_NEW(m->value, m->pattern.ptr[m->nq], err));
@@ -118,8 +121,10 @@ static enum pm_status element_geometry(struct pm_model *m, struct pm_err *err)
         for (int q = 0; q < PM_TET_POINTS; q++) {
             double det = pm_tet10_gradient(X, pm_tet_xi[q], m->dN + 120 * e + 30 * q);
             if (!(det > 0.0))
-                return pm_fail(err, PM_INPUT, "element %td has reference det dX/dxi = %g at point %d, expected > 0",
-                               e, det, q);
+                return pm_fail(
+                    err, PM_INPUT,
+                    "element %td has reference det dX/dxi = %g at point %d, expected > 0", e, det,
+                    q);
             m->w[4 * e + q] = pm_tet_weight[q] * det;
         }
     }
@@ -127,7 +132,8 @@ done:
     return status;
 }
 
-enum pm_status pm_model_new(const struct pm_mesh *mesh, const char *element, struct pm_model **out, struct pm_err *err)
+enum pm_status pm_model_new(const struct pm_mesh *mesh, const char *element, struct pm_model **out,
+                            struct pm_err *err)
 {
     enum pm_status status;
     const struct pm_case *c = &mesh->pcase;
@@ -198,7 +204,8 @@ static void place_tip(const struct pm_model *m, struct pm_config *c)
         }
 }
 
-void pm_model_move(const struct pm_model *m, const struct pm_config *from, const double *dq, double s, struct pm_config *to)
+void pm_model_move(const struct pm_model *m, const struct pm_config *from, const double *dq,
+                   double s, struct pm_config *to)
 {
     if (to != from)
         pm_config_copy(m, from, to);
@@ -214,7 +221,8 @@ void pm_model_move(const struct pm_model *m, const struct pm_config *from, const
     place_tip(m, to);
 }
 
-void pm_model_expand(const struct pm_model *m, const struct pm_config *c, const double *v, double *nodal)
+void pm_model_expand(const struct pm_model *m, const struct pm_config *c, const double *v,
+                     double *nodal)
 {
     struct pm_rotation rot;
     double D[9] = {0}; /* R_i v_i */
@@ -236,7 +244,8 @@ void pm_model_expand(const struct pm_model *m, const struct pm_config *c, const 
     }
 }
 
-void pm_model_reduce(const struct pm_model *m, const struct pm_config *c, const double *nodal, double *q)
+void pm_model_reduce(const struct pm_model *m, const struct pm_config *c, const double *nodal,
+                     double *q)
 {
     struct pm_rotation rot;
     pm_rotation_at(c->U + 3, 0, &rot);
@@ -266,8 +275,8 @@ static ptrdiff_t chamber_of(const struct pm_model *m, ptrdiff_t f)
     return tag >= 1 ? tag - 1 : -1;
 }
 
-double pm_model_potential(const struct pm_model *m, const struct pm_config *c, const double *p, double *f,
-                          double *volume, double *min_det)
+double pm_model_potential(const struct pm_model *m, const struct pm_config *c, const double *p,
+                          double *f, double *volume, double *min_det)
 {
     const struct pm_mesh *mesh = m->mesh;
     double Pi = 0.0;
@@ -302,7 +311,8 @@ double pm_model_potential(const struct pm_model *m, const struct pm_config *c, c
     return Pi;
 }
 
-void pm_model_volume_gradient(const struct pm_model *m, const struct pm_config *c, ptrdiff_t r, double *nodal)
+void pm_model_volume_gradient(const struct pm_model *m, const struct pm_config *c, ptrdiff_t r,
+                              double *nodal)
 {
     memset(nodal, 0, 3 * (size_t)m->mesh->nn * sizeof *nodal);
     for (ptrdiff_t k = 0; k < m->mesh->nf; k++) {
@@ -315,8 +325,8 @@ void pm_model_volume_gradient(const struct pm_model *m, const struct pm_config *
     }
 }
 
-void pm_model_volume_apply(const struct pm_model *m, const struct pm_config *c, ptrdiff_t r, double s, const double *v,
-                           double *out)
+void pm_model_volume_apply(const struct pm_model *m, const struct pm_config *c, ptrdiff_t r,
+                           double s, const double *v, double *out)
 {
     for (ptrdiff_t k = 0; k < m->mesh->nf; k++) {
         double x[18], d[18], g[18];
@@ -329,7 +339,8 @@ void pm_model_volume_apply(const struct pm_model *m, const struct pm_config *c, 
     }
 }
 
-void pm_model_apply(const struct pm_model *m, const struct pm_config *c, const double *p, const double *v, double *out)
+void pm_model_apply(const struct pm_model *m, const struct pm_config *c, const double *p,
+                    const double *v, double *out)
 {
     const struct pm_mesh *mesh = m->mesh;
     memset(out, 0, 3 * (size_t)mesh->nn * sizeof *out);
@@ -345,8 +356,8 @@ void pm_model_apply(const struct pm_model *m, const struct pm_config *c, const d
         pm_model_volume_apply(m, c, r, -p[r], v, out);
 }
 
-void pm_model_third(const struct pm_model *m, const struct pm_config *c, const double *p, const double *v,
-                    const double *w, double *out)
+void pm_model_third(const struct pm_model *m, const struct pm_config *c, const double *p,
+                    const double *v, const double *w, double *out)
 {
     const struct pm_mesh *mesh = m->mesh;
     memset(out, 0, 3 * (size_t)mesh->nn * sizeof *out);
@@ -371,8 +382,8 @@ void pm_model_third(const struct pm_model *m, const struct pm_config *c, const d
     }
 }
 
-void pm_model_shape(const struct pm_model *m, const struct pm_config *c, const double *g, ptrdiff_t n, const double *v,
-                    const double *h, double *D)
+void pm_model_shape(const struct pm_model *m, const struct pm_config *c, const double *g,
+                    ptrdiff_t n, const double *v, const double *h, double *D)
 {
     enum { MOST = 8 };
     const struct pm_mesh *mesh = m->mesh;
@@ -392,7 +403,8 @@ void pm_model_shape(const struct pm_model *m, const struct pm_config *c, const d
     }
 }
 
-void pm_model_pressure(const struct pm_model *m, const struct pm_config *c, const double *du, double *pressure)
+void pm_model_pressure(const struct pm_model *m, const struct pm_config *c, const double *du,
+                       double *pressure)
 {
     for (ptrdiff_t e = 0; e < m->mesh->ne; e++) {
         struct pm_element el = pm_model_element(m, e);

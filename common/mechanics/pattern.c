@@ -22,8 +22,9 @@ static ptrdiff_t unique(ptrdiff_t *list, ptrdiff_t n)
 }
 
 /* Adjacency lists among used nodes, without self loops; index[a] numbers the used nodes. */
-static enum pm_status adjacency(ptrdiff_t ne, const int32_t *tet, const ptrdiff_t *index, ptrdiff_t n,
-                                ptrdiff_t **ptr_out, ptrdiff_t **adj_out, struct pm_err *err)
+static enum pm_status adjacency(ptrdiff_t ne, const int32_t *tet, const ptrdiff_t *index,
+                                ptrdiff_t n, ptrdiff_t **ptr_out, ptrdiff_t **adj_out,
+                                struct pm_err *err)
 {
     enum pm_status status;
     ptrdiff_t *ptr = NULL, *adj = NULL, *fill = NULL;
@@ -112,8 +113,8 @@ done:
 }
 
 enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, const int32_t *tet, const uint8_t *use,
-                              const uint8_t *couples, ptrdiff_t bs, ptrdiff_t tail, struct pm_pattern *p,
-                              struct pm_err *err)
+                              const uint8_t *couples, ptrdiff_t bs, ptrdiff_t tail,
+                              struct pm_pattern *p, struct pm_err *err)
 {
     enum pm_status status;
     ptrdiff_t *ptr = NULL, *adj = NULL, *node = NULL, *place = NULL;

@@ -5,8 +5,8 @@
 
 #include "common/mechanics/tensor.h"
 
-/* f_o(s) = sum_k (-s)^k/(2k + o)! with three derivatives by s: o = 1 is sin n/n, o = 2 is (1 - cos n)/n^2.
- * Below s = 1 the series (14 terms); the closed forms lose digits there. */
+/* f_o(s) = sum_k (-s)^k/(2k + o)! with three derivatives by s: o = 1 is sin n/n, o = 2 is (1 - cos
+ * n)/n^2. Below s = 1 the series (14 terms); the closed forms lose digits there. */
 static void series(int o, double s, double f[4])
 {
     double c = 1.0;
@@ -83,8 +83,8 @@ static double third_of(const double f[4], const double t[3], int i, int j, int k
     return s;
 }
 
-static void third_derivatives(const double t[3], const double a[4], const double b[4], const struct pieces *p,
-                              struct pm_rotation *r)
+static void third_derivatives(const double t[3], const double a[4], const double b[4],
+                              const struct pieces *p, struct pm_rotation *r)
 {
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)

@@ -3,10 +3,10 @@
 #define PM_ROTATION_H
 
 struct pm_rotation {
-    double R[9];            /* R(theta) */
-    double Ri[3][9];        /* dR/dtheta_i */
-    double Rij[3][3][9];    /* second derivatives */
-    double Rijk[3][3][3][9];/* third derivatives */
+    double R[9];             /* R(theta) */
+    double Ri[3][9];         /* dR/dtheta_i */
+    double Rij[3][3][9];     /* second derivatives */
+    double Rijk[3][3][3][9]; /* third derivatives */
 };
 
 /* R = I + a K + b K^2, K = [theta]_x, analytic for every theta; third = 0 leaves Rijk unset. */

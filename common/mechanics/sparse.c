@@ -9,13 +9,13 @@
 
 struct pm_cholesky {
     cholmod_common common;
-    cholmod_sparse matrix;   /* borrowed pattern, values set per factorisation */
+    cholmod_sparse matrix; /* borrowed pattern, values set per factorisation */
     cholmod_factor *factor;
     cholmod_dense *x, *y, *e; /* workspaces of cholmod_l_solve2 */
 };
 
-enum pm_status pm_order_nodes(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *adj, ptrdiff_t *perm,
-                              struct pm_err *err)
+enum pm_status pm_order_nodes(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *adj,
+                              ptrdiff_t *perm, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     idx_t *xadj = NULL, *list = NULL, *p = NULL, *ip = NULL;
@@ -84,8 +84,9 @@ enum pm_status pm_cholesky_new(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_
                                  .packed = 1};
     c->factor = cholmod_l_analyze(&c->matrix, cm);
     if (c->factor == NULL || cm->status < CHOLMOD_OK) {
-        enum pm_status status = pm_fail(err, PM_SYSTEM, "CHOLMOD cannot analyse a matrix of order %td (status %d)",
-                                        n, cm->status);
+        enum pm_status status =
+            pm_fail(err, PM_SYSTEM, "CHOLMOD cannot analyse a matrix of order %td (status %d)", n,
+                    cm->status);
         pm_cholesky_free(c);
         return status;
     }
@@ -110,7 +111,8 @@ enum pm_status pm_cholesky_factor(struct pm_cholesky *c, const double *value, in
     return PM_OK;
 }
 
-enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrhs, struct pm_err *err)
+enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrhs,
+                                 struct pm_err *err)
 {
     cholmod_common *cm = &c->common;
     size_t n = c->matrix.nrow;
@@ -122,7 +124,8 @@ enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrh
                        .xtype = CHOLMOD_REAL,
                        .dtype = CHOLMOD_DOUBLE};
     if (!cholmod_l_solve2(CHOLMOD_A, c->factor, &b, NULL, &c->x, NULL, &c->y, &c->e, cm))
-        return pm_fail(err, PM_SYSTEM, "CHOLMOD cannot solve a system of order %zu (status %d)", n, cm->status);
+        return pm_fail(err, PM_SYSTEM, "CHOLMOD cannot solve a system of order %zu (status %d)", n,
+                       cm->status);
     memcpy(x, c->x->x, n * (size_t)nrhs * sizeof *x);
     return PM_OK;
 }

@@ -11,19 +11,20 @@ struct pm_cholesky; /* symbolic analysis and factor of one sparsity pattern */
 
 /* Nested dissection (METIS) of a graph of n nodes given by its adjacency lists without self loops:
  * perm[k] = node eliminated at place k. Deterministic. */
-enum pm_status pm_order_nodes(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *adj, ptrdiff_t *perm,
-                              struct pm_err *err);
+enum pm_status pm_order_nodes(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *adj,
+                              ptrdiff_t *perm, struct pm_err *err);
 
-/* Lower triangle, compressed columns (ptr: n + 1, row: ascending; entries above the diagonal are ignored),
- * already numbered in elimination order. Supernodal LL'. */
-enum pm_status pm_cholesky_new(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *row, struct pm_cholesky **c,
-                               struct pm_err *err);
-/* Factors the values (same order as row); *definite = 0 where the matrix is not positive definite, then
- * *column is the column at which it was seen. That is a result, not an error. */
-enum pm_status pm_cholesky_factor(struct pm_cholesky *c, const double *value, int *definite, ptrdiff_t *column,
-                                  struct pm_err *err);
+/* Lower triangle, compressed columns (ptr: n + 1, row: ascending; entries above the diagonal are
+ * ignored), already numbered in elimination order. Supernodal LL'. */
+enum pm_status pm_cholesky_new(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *row,
+                               struct pm_cholesky **c, struct pm_err *err);
+/* Factors the values (same order as row); *definite = 0 where the matrix is not positive definite,
+ * then *column is the column at which it was seen. That is a result, not an error. */
+enum pm_status pm_cholesky_factor(struct pm_cholesky *c, const double *value, int *definite,
+                                  ptrdiff_t *column, struct pm_err *err);
 /* x (n x nrhs, column after column) is replaced by A^-1 x. */
-enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrhs, struct pm_err *err);
+enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrhs,
+                                 struct pm_err *err);
 void pm_cholesky_flops(const struct pm_cholesky *c, double *nnz_L, double *flops);
 void pm_cholesky_free(struct pm_cholesky *c);
 

@@ -7,7 +7,8 @@
 #include "common/mechanics/tensor.h"
 
 /* B_a = [I, R_1 r_a, R_2 r_a, R_3 r_a] (3 x 6): motion of a tip node by the end-effector. */
-static void tip_map(const struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a, double B[18])
+static void tip_map(const struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a,
+                    double B[18])
 {
     memset(B, 0, 18 * sizeof *B);
     for (int k = 0; k < 3; k++) {
@@ -26,15 +27,17 @@ static double *tail_entry(struct pm_model *m, ptrdiff_t row, ptrdiff_t column_of
     return m->value + m->pattern.ptr[c] + (row - column_of_tail);
 }
 
-/* Adds the 3x3 block k of nodes (a, b), row-major with stride; only the half that the lower triangle stores. */
-static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a, ptrdiff_t b, const double *k,
-                      ptrdiff_t stride)
+/* Adds the 3x3 block k of nodes (a, b), row-major with stride; only the half that the lower
+ * triangle stores. */
+static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a, ptrdiff_t b,
+                      const double *k, ptrdiff_t stride)
 {
     const struct pm_pattern *p = &m->pattern;
     ptrdiff_t i = p->eq[a], j = p->eq[b];
     if (i >= 0 && j >= 0) {
         if (i >= j) {
-            ptrdiff_t base = pm_pattern_block(p, i, j, 0), height = p->ptr[3 * j + 1] - p->ptr[3 * j];
+            ptrdiff_t base = pm_pattern_block(p, i, j, 0),
+                      height = p->ptr[3 * j + 1] - p->ptr[3 * j];
             for (int c = 0; c < 3; c++)
                 for (int d = 0; d < 3; d++)
                     m->value[base + c * height + d] += k[d * stride + c];
@@ -47,7 +50,8 @@ static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff
     tip_map(m, rot, a, Ba);
     for (int t = 0; t < 6; t++)
         for (int c = 0; c < 3; c++)
-            BK[3 * t + c] = Ba[t] * k[c] + Ba[6 + t] * k[stride + c] + Ba[12 + t] * k[2 * stride + c];
+            BK[3 * t + c] =
+                Ba[t] * k[c] + Ba[6 + t] * k[stride + c] + Ba[12 + t] * k[2 * stride + c];
     if (j >= 0) {
         for (int c = 0; c < 3; c++)
             for (int t = 0; t < 6; t++)
@@ -58,11 +62,12 @@ static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff
     tip_map(m, rot, b, Bb);
     for (int s = 0; s < 6; s++)
         for (int t = s; t < 6; t++)
-            *tail_entry(m, t, s) += BK[3 * t] * Bb[s] + BK[3 * t + 1] * Bb[6 + s] + BK[3 * t + 2] * Bb[12 + s];
+            *tail_entry(m, t, s) +=
+                BK[3 * t] * Bb[s] + BK[3 * t + 1] * Bb[6 + s] + BK[3 * t + 2] * Bb[12 + s];
 }
 
-static void add_elements(struct pm_model *m, const struct pm_rotation *rot, const struct pm_config *c,
-                         const double *pressure)
+static void add_elements(struct pm_model *m, const struct pm_rotation *rot,
+                         const struct pm_config *c, const double *pressure)
 {
     const struct pm_mesh *mesh = m->mesh;
     double K[900];
@@ -79,7 +84,8 @@ static void add_elements(struct pm_model *m, const struct pm_rotation *rot, cons
 }
 
 /* - p_r H with H_ab = skew(s_ab); chamber faces point into the cavity, hence + p_r. */
-static void add_pressure(struct pm_model *m, const struct pm_rotation *rot, const struct pm_config *c, const double *p)
+static void add_pressure(struct pm_model *m, const struct pm_rotation *rot,
+                         const struct pm_config *c, const double *p)
 {
     const struct pm_mesh *mesh = m->mesh;
     for (ptrdiff_t f = 0; f < mesh->nf; f++) {
@@ -90,12 +96,14 @@ static void add_pressure(struct pm_model *m, const struct pm_rotation *rot, cons
         double pr = p[mesh->tri_tag[f] - 1];
         for (int a = 0; a < 6; a++)
             for (int i = 0; i < 3; i++)
-                x[3 * a + i] = mesh->x[3 * (ptrdiff_t)t[a] + i] + c->u[3 * (ptrdiff_t)t[a] + i] - m->origin[i];
+                x[3 * a + i] =
+                    mesh->x[3 * (ptrdiff_t)t[a] + i] + c->u[3 * (ptrdiff_t)t[a] + i] - m->origin[i];
         pm_cavity_hessian(x, s);
         for (int a = 0; a < 6; a++)
             for (int b = 0; b < 6; b++) {
                 const double *v = s + 3 * (6 * a + b);
-                const double k[9] = {0, -pr * v[2], pr * v[1], pr * v[2], 0, -pr * v[0], -pr * v[1], pr * v[0], 0};
+                const double k[9] = {0,          -pr * v[2], pr * v[1], pr * v[2], 0,
+                                     -pr * v[0], -pr * v[1], pr * v[0], 0};
                 add_block(m, rot, t[a], t[b], k, 3);
             }
     }
@@ -128,8 +136,9 @@ static void fix_equations(struct pm_model *m)
                 m->value[k] = p->row[k] == c ? scale : 0.0;
 }
 
-enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p, const double *f,
-                               const double *pressure, int *definite, struct pm_err *err)
+enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p,
+                               const double *f, const double *pressure, int *definite,
+                               struct pm_err *err)
 {
     struct pm_rotation rot;
     pm_rotation_at(c->U + 3, 0, &rot);

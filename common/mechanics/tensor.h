@@ -20,7 +20,8 @@ static inline void pm_axpy9(double s, const double A[9], double Y[9])
         Y[i] += s * A[i];
 }
 
-/* Tensor cross product A x B (Bonet, Gil, Ortigosa 2015): bilinear, symmetric; cof F = (F x F)/2. */
+/* Tensor cross product A x B (Bonet, Gil, Ortigosa 2015): bilinear, symmetric; cof F = (F x F)/2.
+ */
 static inline void pm_cross9(const double A[9], const double B[9], double out[9])
 {
     static const int n1[3] = {1, 2, 0}, n2[3] = {2, 0, 1};

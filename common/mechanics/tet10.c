@@ -14,8 +14,8 @@ const double pm_tet_weight[PM_TET_POINTS] = {1.0 / 24, 1.0 / 24, 1.0 / 24, 1.0 /
 #define W1 0.11169079483900573285
 #define W2 0.05497587182766093382
 
-const double pm_tri_xi[PM_TRI_POINTS][2] = {
-    {P1, P1}, {1 - 2 * P1, P1}, {P1, 1 - 2 * P1}, {P2, P2}, {1 - 2 * P2, P2}, {P2, 1 - 2 * P2}};
+const double pm_tri_xi[PM_TRI_POINTS][2] = {{P1, P1}, {1 - 2 * P1, P1}, {P1, 1 - 2 * P1},
+                                            {P2, P2}, {1 - 2 * P2, P2}, {P2, 1 - 2 * P2}};
 const double pm_tri_weight[PM_TRI_POINTS] = {W1, W1, W1, W2, W2, W2};
 
 static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
@@ -67,6 +67,7 @@ double pm_tet10_gradient(const double *X, const double xi[3], double dN[30])
     /* dN/dX_i = dN/dxi_J (D^-1)_Ji, (D^-1)_Ji = C_iJ / det */
     for (int a = 0; a < 10; a++)
         for (int i = 0; i < 3; i++)
-            dN[3 * a + i] = inv * (C[3 * i] * ref[3 * a] + C[3 * i + 1] * ref[3 * a + 1] + C[3 * i + 2] * ref[3 * a + 2]);
+            dN[3 * a + i] = inv * (C[3 * i] * ref[3 * a] + C[3 * i + 1] * ref[3 * a + 1] +
+                                   C[3 * i + 2] * ref[3 * a + 2]);
     return det;
 }

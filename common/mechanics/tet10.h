@@ -1,5 +1,6 @@
 /* The 10-node tetrahedron and the 6-node triangle: shape functions and quadrature.
- * Node order (gmsh): vertices 0-3, edges (01)(12)(20)(30)(23)(13); triangle: vertices, edges (01)(12)(20). */
+ * Node order (gmsh): vertices 0-3, edges (01)(12)(20)(30)(23)(13); triangle: vertices, edges
+ * (01)(12)(20). */
 #ifndef PM_TET10_H
 #define PM_TET10_H
 
@@ -15,7 +16,7 @@ extern const double pm_tri_xi[PM_TRI_POINTS][2];
 extern const double pm_tri_weight[PM_TRI_POINTS];
 
 void pm_tet10_shape(const double xi[3], double N[10]);
-void pm_tet10_shape_gradient(const double xi[3], double dN[30]); /* dN_a/dxi_j (10 x 3) */
+void pm_tet10_shape_gradient(const double xi[3], double dN[30]);    /* dN_a/dxi_j (10 x 3) */
 void pm_tri6_shape(const double xi[2], double N[6], double dN[12]); /* dN_a/dxi_j (6 x 2) */
 
 /* Gradients with respect to X (10 x 3) at reference point xi: dN (10 x 3); returns det dX/dxi. */

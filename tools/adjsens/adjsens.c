@@ -17,11 +17,13 @@ static enum pm_status find_row(const char *path, struct adjsens_point *pt, struc
         if (w->form == s->form && w->load[pt->row] == s->load)
             break;
     if (pt->row == w->ng)
-        return pm_fail(err, PM_INPUT, "cannot use '%s': it has no row for load %lld of the state's form", path,
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': it has no row for load %lld of the state's form", path,
                        (long long)s->load);
     for (int l = 0; l < 6; l++)
         if (w->nc != s->mesh.nc || w->U[6 * pt->row + l] != s->U[l])
-            return pm_fail(err, PM_INPUT, "cannot use '%s': its row for load %lld belongs to another state", path,
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': its row for load %lld belongs to another state", path,
                            (long long)s->load);
     return PM_OK;
 }
@@ -47,7 +49,8 @@ static enum pm_status restore(struct adjsens_point *pt, struct pm_err *err)
     pm_model_potential(pt->m, &pt->c, pt->p, pt->f, NULL, &low);
     PM_TRY(pm_model_factor(pt->m, &pt->c, pt->p, pt->f, NULL, &definite, err));
     if (!definite) {
-        status = pm_fail(err, PM_NUMERIC, "the tangent at the state is not positive definite: no gradient there");
+        status = pm_fail(err, PM_NUMERIC,
+                         "the tangent at the state is not positive definite: no gradient there");
         goto done;
     }
     PM_TRY(pm_jacobian(pt->m, &pt->c, pt->m->law.mu, pt->Jq, pt->J, err));
@@ -55,15 +58,20 @@ done:
     return status;
 }
 
-/* Relative defects of D under translation, scaling and rotation of the body [theory 4.3]: exact identities. */
-static void identities(const struct adjsens_point *pt, const double *D, const double D_ref[3], struct pm_sens *out)
+/* Relative defects of D under translation, scaling and rotation of the body [theory 4.3]: exact
+ * identities. */
+static void identities(const struct adjsens_point *pt, const double *D, const double D_ref[3],
+                       struct pm_sens *out)
 {
     const struct pm_mesh *mesh = &pt->state.mesh;
     ptrdiff_t nc = mesh->nc;
-    const double *a = pt->work.dw_dU + 6 * pt->row, *b = pt->work.dw_dJ + 6 * nc * pt->row, *U = pt->state.U;
-    double sum[3] = {D_ref[0], D_ref[1], D_ref[2]}, X[3], turn[3] = {0}, want[3] = {0}, scale = 0.0, size[3] = {0}, Euler = 0.0;
+    const double *a = pt->work.dw_dU + 6 * pt->row, *b = pt->work.dw_dJ + 6 * nc * pt->row,
+                 *U = pt->state.U;
+    double sum[3] = {D_ref[0], D_ref[1], D_ref[2]}, X[3], turn[3] = {0}, want[3] = {0}, scale = 0.0,
+           size[3] = {0}, Euler = 0.0;
     for (ptrdiff_t n = 0; n <= mesh->nn; n++) {
-        const double *x = n < mesh->nn ? mesh->x + 3 * n : mesh->reference_point, *d = n < mesh->nn ? D + 3 * n : D_ref;
+        const double *x = n < mesh->nn ? mesh->x + 3 * n : mesh->reference_point,
+                     *d = n < mesh->nn ? D + 3 * n : D_ref;
         memcpy(X, x, sizeof X);
         for (int i = 0; i < 3; i++) {
             int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -79,19 +87,24 @@ static void identities(const struct adjsens_point *pt, const double *D, const do
         for (int l = 0; l < 6; l += 3)
             for (int i = 0; i < 3; i++) {
                 int j = (i + 1) % 3, k = (i + 2) % 3;
-                const double g[3] = {c < 0 ? a[l] : b[l * nc + c], c < 0 ? a[l + 1] : b[(l + 1) * nc + c],
+                const double g[3] = {c < 0 ? a[l] : b[l * nc + c],
+                                     c < 0 ? a[l + 1] : b[(l + 1) * nc + c],
                                      c < 0 ? a[l + 2] : b[(l + 2) * nc + c]};
-                const double v[3] = {c < 0 ? U[l] : pt->J[l * nc + c], c < 0 ? U[l + 1] : pt->J[(l + 1) * nc + c],
+                const double v[3] = {c < 0 ? U[l] : pt->J[l * nc + c],
+                                     c < 0 ? U[l + 1] : pt->J[(l + 1) * nc + c],
                                      c < 0 ? U[l + 2] : pt->J[(l + 2) * nc + c]};
                 want[i] += v[j] * g[k] - v[k] * g[j];
                 Euler += l == 0 ? g[i] * v[i] : 0.0;
             }
     out->identity_translation = fmax(fabs(sum[0]), fmax(fabs(sum[1]), fabs(sum[2]))) / size[0];
     out->identity_scaling = fabs(scale - Euler) / size[1];
-    out->identity_rotation = fmax(fabs(turn[0] - want[0]), fmax(fabs(turn[1] - want[1]), fabs(turn[2] - want[2]))) / size[2];
+    out->identity_rotation =
+        fmax(fabs(turn[0] - want[0]), fmax(fabs(turn[1] - want[1]), fabs(turn[2] - want[2]))) /
+        size[2];
 }
 
-static enum pm_status differentiate(struct adjsens_point *pt, struct pm_sens *out, struct pm_err *err)
+static enum pm_status differentiate(struct adjsens_point *pt, struct pm_sens *out,
+                                    struct pm_err *err)
 {
     enum pm_status status;
     struct pm_mesh *mesh = &pt->state.mesh;
@@ -99,11 +112,12 @@ static enum pm_status differentiate(struct adjsens_point *pt, struct pm_sens *ou
     double *D = NULL, D_ref[3];
     PM_TRY(PM_NEW(D, 3 * mesh->nn, err));
     PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
-    PM_TRY(pm_adjoint(pt->m, &pt->c, pt->p, pt->f, pt->m->law.mu, pt->Jq, pt->work.dw_dU + 6 * pt->row,
-                      pt->work.dw_dJ + 6 * nc * pt->row, D, D_ref, err));
+    PM_TRY(pm_adjoint(pt->m, &pt->c, pt->p, pt->f, pt->m->law.mu, pt->Jq,
+                      pt->work.dw_dU + 6 * pt->row, pt->work.dw_dJ + 6 * nc * pt->row, D, D_ref,
+                      err));
     identities(pt, D, D_ref, out);
-    pm_log(1, "identities: translation %.1e, scaling %.1e, rotation %.1e", out->identity_translation,
-           out->identity_scaling, out->identity_rotation);
+    pm_log(1, "identities: translation %.1e, scaling %.1e, rotation %.1e",
+           out->identity_translation, out->identity_scaling, out->identity_rotation);
     PM_TRY(pm_extension_new(mesh, &pt->extension, err));
     PM_TRY(pm_extension_transpose(pt->extension, D, err));
     pm_mesh_pull_back(mesh, D, out->gradient);
@@ -125,7 +139,8 @@ static void release(struct adjsens_point *pt)
     pm_work_release(&pt->work);
 }
 
-enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common *common, struct pm_err *err)
+enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common *common,
+                           struct pm_err *err)
 {
     enum pm_status status;
     struct adjsens_point pt = {0};
@@ -134,8 +149,10 @@ enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common 
     PM_TRY(pm_state_load(common->operands[0], 0, &pt.state, err));
     PM_TRY(pm_work_load(common->operands[1], 0, &pt.work, err));
     if (pt.state.mesh.N == 0) {
-        status = pm_fail(err, PM_INPUT, "cannot use '%s': its mesh has no control points, expected one made from surfaces",
-                         common->operands[0]);
+        status = pm_fail(
+            err, PM_INPUT,
+            "cannot use '%s': its mesh has no control points, expected one made from surfaces",
+            common->operands[0]);
         goto done;
     }
     PM_TRY(find_row(common->operands[1], &pt, err));

@@ -17,7 +17,7 @@ struct probe {
     struct adjsens_point *pt;
     struct pm_load load;
     double sigma_weight; /* of the point's contribution */
-    double *x0, *dx;     /* node positions at the design and their rate along the direction (nn x 3) */
+    double *x0, *dx; /* node positions at the design and their rate along the direction (nn x 3) */
 };
 
 /* Contribution of the point at x0 + s dx: solved from the state as guess. */
@@ -45,7 +45,8 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *w, stru
     PM_TRY(PM_NEW(dJ, 6 * nc, err));
     PM_TRY(pm_equilibrium(m, pt->p, &o, pt->p, &c, V, f, &report, err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, J, err));
-    PM_TRY(pm_measure_point(&mesh->pcase, (enum pm_form)pt->state.form, &pr->load, c.U, J, w, dU, dJ, err));
+    PM_TRY(pm_measure_point(&mesh->pcase, (enum pm_form)pt->state.form, &pr->load, c.U, J, w, dU,
+                            dJ, err));
     *w *= pr->sigma_weight;
 done:
     memcpy(mesh->x, pr->x0, 3 * (size_t)mesh->nn * sizeof *mesh->x);
@@ -59,16 +60,20 @@ done:
     return status;
 }
 
-/* Random direction: which = 1 chambers, 2 exterior, 3 both; largest displacement 1. Control points of the fixed
- * rims do not move. Uniform numbers by a 64-bit congruential generator (Knuth's MMIX constants). */
-static void random_direction(const struct pm_mesh *mesh, const uint8_t *part, int which, uint64_t *seed, double *d)
+/* Random direction: which = 1 chambers, 2 exterior, 3 both; largest displacement 1. Control points
+ * of the fixed rims do not move. Uniform numbers by a 64-bit congruential generator (Knuth's MMIX
+ * constants). */
+static void random_direction(const struct pm_mesh *mesh, const uint8_t *part, int which,
+                             uint64_t *seed, double *d)
 {
     double most = 0.0;
     for (ptrdiff_t k = 0; k < mesh->N; k++) {
         double size = 0.0;
         for (int i = 0; i < 3; i++) {
             *seed = *seed * 6364136223846793005u + 1442695040888963407u;
-            d[3 * k + i] = (part[k] & which) != 0 ? 2.0 * (double)(*seed >> 11) / 9007199254740992.0 - 1.0 : 0.0;
+            d[3 * k + i] = (part[k] & which) != 0
+                               ? 2.0 * (double)(*seed >> 11) / 9007199254740992.0 - 1.0
+                               : 0.0;
             size += d[3 * k + i] * d[3 * k + i];
         }
         most = fmax(most, sqrt(size));
@@ -77,7 +82,8 @@ static void random_direction(const struct pm_mesh *mesh, const uint8_t *part, in
         d[k] /= most;
 }
 
-/* part[m]: 1 chamber control point, 2 exterior, 0 moves a node of the base or tip plane (a rim: fixed). */
+/* part[m]: 1 chamber control point, 2 exterior, 0 moves a node of the base or tip plane (a rim:
+ * fixed). */
 static void classify(const struct pm_mesh *mesh, uint8_t *part)
 {
     for (ptrdiff_t a = 0; a < mesh->nn; a++)
@@ -93,7 +99,8 @@ static void classify(const struct pm_mesh *mesh, uint8_t *part)
 }
 
 /* Rate of the node positions along a control point direction: W d on surface nodes, extended. */
-static enum pm_status node_rates(struct adjsens_point *pt, const double *d, double *dx, struct pm_err *err)
+static enum pm_status node_rates(struct adjsens_point *pt, const double *d, double *dx,
+                                 struct pm_err *err)
 {
     const struct pm_mesh *mesh = &pt->state.mesh;
     memset(dx, 0, 3 * (size_t)mesh->nn * sizeof *dx);
@@ -104,9 +111,10 @@ static enum pm_status node_rates(struct adjsens_point *pt, const double *d, doub
     return pm_extension_apply(pt->extension, dx, err);
 }
 
-/* Sweep of step sizes in one direction: prints each and the plateau; *best is the smallest relative error. */
-static enum pm_status sweep(const struct probe *pr, const char *label, double exact, double radius, double *best,
-                            struct pm_err *err)
+/* Sweep of step sizes in one direction: prints each and the plateau; *best is the smallest relative
+ * error. */
+static enum pm_status sweep(const struct probe *pr, const char *label, double exact, double radius,
+                            double *best, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     *best = INFINITY;
@@ -115,7 +123,8 @@ static enum pm_status sweep(const struct probe *pr, const char *label, double ex
         PM_TRY(evaluate(pr, radius, &up, err));
         PM_TRY(evaluate(pr, -radius, &down, err));
         double fd = (up - down) / (2 * radius), e = fabs(fd - exact) / fabs(exact);
-        printf("%-9s step %.2e  adjoint %+.10e  differences %+.10e  relative error %.2e\n", label, radius, exact, fd, e);
+        printf("%-9s step %.2e  adjoint %+.10e  differences %+.10e  relative error %.2e\n", label,
+               radius, exact, fd, e);
         *best = fmin(*best, e);
     }
     printf("%-9s best relative error %.2e (wanted %.0e)\n", label, *best, wanted);
@@ -130,7 +139,8 @@ static enum pm_status prepare(struct adjsens_point *pt, struct probe *pr, struct
     ptrdiff_t n;
     PM_TRY(pm_load_set(&pt->state.mesh.pcase, (enum pm_form)pt->state.form, &set, &n, err));
     if (pt->state.load >= n)
-        status = pm_fail(err, PM_INPUT, "the state's load %lld is not in its Gauss set", (long long)pt->state.load);
+        status = pm_fail(err, PM_INPUT, "the state's load %lld is not in its Gauss set",
+                         (long long)pt->state.load);
     else
         pr->load = set[pt->state.load];
     pr->sigma_weight = pt->work.orientation * pr->load.weight;
@@ -142,7 +152,8 @@ done:
     return status;
 }
 
-enum pm_status adjsens_check(const struct adjsens_opts *o, struct adjsens_point *pt, const double *g, struct pm_err *err)
+enum pm_status adjsens_check(const struct adjsens_opts *o, struct adjsens_point *pt,
+                             const double *g, struct pm_err *err)
 {
     static const char *const label[] = {NULL, "chambers", "exterior", "both"};
     enum pm_status status;
@@ -165,7 +176,9 @@ enum pm_status adjsens_check(const struct adjsens_opts *o, struct adjsens_point 
         worst = fmax(worst, best);
     }
     if (!(worst <= wanted))
-        status = pm_fail(err, PM_NUMERIC, "gradient differs from differences by %.2e, expected at most %.0e", worst, wanted);
+        status = pm_fail(err, PM_NUMERIC,
+                         "gradient differs from differences by %.2e, expected at most %.0e", worst,
+                         wanted);
 done:
     pm_free(part);
     pm_free(d);

@@ -11,7 +11,8 @@
 #include "common/mechanics/equilibrium.h"
 
 /* Pressures of the run: a point of a Gauss set, or those given. */
-static enum pm_status choose_load(const struct fesolve_opts *o, struct pm_state *s, struct pm_err *err)
+static enum pm_status choose_load(const struct fesolve_opts *o, struct pm_state *s,
+                                  struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const struct pm_case *c = &s->mesh.pcase;
@@ -23,14 +24,17 @@ static enum pm_status choose_load(const struct fesolve_opts *o, struct pm_state 
     if (o->have_load) {
         PM_TRY(pm_load_set(c, (enum pm_form)s->form, &set, &n, err));
         if (o->load < 0 || o->load >= n)
-            status = pm_fail(err, PM_USAGE, "option --load: found %ld, the %s form of this case has points 0 to %td",
-                             o->load, s->form == PM_FORM_VOLUME ? "volume" : "boundary", n - 1);
+            status =
+                pm_fail(err, PM_USAGE,
+                        "option --load: found %ld, the %s form of this case has points 0 to %td",
+                        o->load, s->form == PM_FORM_VOLUME ? "volume" : "boundary", n - 1);
         else
             memcpy(s->pressure, set[o->load].p, (size_t)s->mesh.nc * sizeof *s->pressure);
         s->load = o->load;
     } else if (o->npressure != s->mesh.nc) {
-        status = pm_fail(err, PM_USAGE, "option --pressure: found %d values, the mesh has %td chambers", o->npressure,
-                         s->mesh.nc);
+        status =
+            pm_fail(err, PM_USAGE, "option --pressure: found %d values, the mesh has %td chambers",
+                    o->npressure, s->mesh.nc);
     } else {
         memcpy(s->pressure, o->pressure, (size_t)s->mesh.nc * sizeof *s->pressure);
     }
@@ -46,8 +50,8 @@ static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
 }
 
 /* Takes the displacements of the guess; *at (nc) its pressures, or NULL where it cannot serve. */
-static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c, double *pressure,
-                                 const double **at, struct pm_err *err)
+static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c,
+                                 double *pressure, const double **at, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_state g = {0};
@@ -56,7 +60,9 @@ static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, s
     if (g.failure[0] != '\0') {
         pm_warn("guess '%s' records a failure: starting from the undeformed state", path);
     } else if (!same_connectivity(&g.mesh, mesh)) {
-        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed state", path);
+        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed "
+                "state",
+                path);
     } else {
         memcpy(c->u, g.u, 3 * (size_t)mesh->nn * sizeof *c->u);
         memcpy(c->U, g.U, sizeof c->U);
@@ -70,7 +76,8 @@ done:
 }
 
 /* Force and moment about the reference point that the clamp exerts on the body. */
-static void reaction(const struct pm_model *m, const struct pm_config *c, const double *f, double out[6])
+static void reaction(const struct pm_model *m, const struct pm_config *c, const double *f,
+                     double out[6])
 {
     memset(out, 0, 6 * sizeof *out);
     for (ptrdiff_t a = 0; a < m->mesh->nn; a++) {
@@ -126,10 +133,13 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     s->backoffs = r.backoffs;
     s->stable = 1;
     s->warm = r.warm;
-    pm_log(1, "%td unknowns: %ld load steps, %ld Newton steps, %ld factorisations, %ld back-offs%s, residual %.1e",
-           m->nq, r.load_steps, r.newton_steps, r.factorisations, r.backoffs, r.warm ? ", warm" : "", r.residual);
-    pm_log(1, "U = %.6f %.6f %.6f mm, %.6f %.6f %.6f rad; smallest det F %.3f", s->U[0], s->U[1], s->U[2], s->U[3],
-           s->U[4], s->U[5], s->min_det_F);
+    pm_log(1,
+           "%td unknowns: %ld load steps, %ld Newton steps, %ld factorisations, %ld back-offs%s, "
+           "residual %.1e",
+           m->nq, r.load_steps, r.newton_steps, r.factorisations, r.backoffs,
+           r.warm ? ", warm" : "", r.residual);
+    pm_log(1, "U = %.6f %.6f %.6f mm, %.6f %.6f %.6f rad; smallest det F %.3f", s->U[0], s->U[1],
+           s->U[2], s->U[3], s->U[4], s->U[5], s->min_det_F);
 done:
     pm_config_release(&c);
     pm_model_free(m);
@@ -139,7 +149,8 @@ done:
     return status;
 }
 
-enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common *common, struct pm_err *err)
+enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common *common,
+                           struct pm_err *err)
 {
     enum pm_status status;
     struct pm_state s = {0};

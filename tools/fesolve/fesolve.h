@@ -15,6 +15,7 @@ struct fesolve_opts {
     int record_failure;
 };
 
-enum pm_status fesolve_run(const struct fesolve_opts *opts, const struct pm_common *common, struct pm_err *err);
+enum pm_status fesolve_run(const struct fesolve_opts *opts, const struct pm_common *common,
+                           struct pm_err *err);
 
 #endif

@@ -9,7 +9,8 @@ static const struct pm_option options[] = {
     {"guess", 'g', "STATE.h5", "start from this state of a mesh with the same connectivity"},
     {"element", 'e', "NAME", "tet10-blend (default), tet10 or tet10-mean"},
     {"tolerance", 't', "T", "residual / pressure load at the solution (default 1e-8)"},
-    {"record-failure", 'r', NULL, "where there is no stable equilibrium, write a state that says why"},
+    {"record-failure", 'r', NULL,
+     "where there is no stable equilibrium, write a state that says why"},
     {0}};
 
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
@@ -23,7 +24,8 @@ static enum pm_status option(void *data, const char *name, const char *value, st
         o->have_form = 1;
         o->form = strcmp(value, "volume") == 0 ? PM_FORM_VOLUME : PM_FORM_BOUNDARY;
         if (strcmp(value, "volume") != 0 && strcmp(value, "boundary") != 0)
-            status = pm_fail(err, PM_USAGE, "option --form: found '%s', expected boundary or volume", value);
+            status = pm_fail(err, PM_USAGE,
+                             "option --form: found '%s', expected boundary or volume", value);
     } else if (strcmp(name, "pressure") == 0) {
         status = pm_parse_doubles(name, value, PM_MAX_CHAMBERS, o->pressure, &o->npressure, err);
     } else if (strcmp(name, "guess") == 0) {
@@ -33,7 +35,8 @@ static enum pm_status option(void *data, const char *name, const char *value, st
     } else if (strcmp(name, "tolerance") == 0) {
         status = pm_parse_double(name, value, &o->tolerance, err);
         if (status == PM_OK && !(o->tolerance > 0.0 && o->tolerance < 1.0))
-            status = pm_fail(err, PM_USAGE, "option --tolerance: found %s, expected a number in (0, 1)", value);
+            status = pm_fail(err, PM_USAGE,
+                             "option --tolerance: found %s, expected a number in (0, 1)", value);
     } else {
         o->record_failure = 1;
     }
@@ -49,7 +52,8 @@ int main(int argc, char **argv)
 {
     static const struct pm_tool tool = {.name = "fesolve",
                                         .operands = "MESH.h5",
-                                        .summary = "stable static equilibrium of a soft robot at one load",
+                                        .summary =
+                                            "stable static equilibrium of a soft robot at one load",
                                         .options = options,
                                         .min_operands = 1,
                                         .max_operands = 1,
