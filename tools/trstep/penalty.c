@@ -8,6 +8,8 @@
 
 /* VOID_SHARE: casting cores and grooves may be thinner than walls. GEODESIC: half a circle of
  * diameter d is pi/2 d long, so a fold of allowed curvature does not count as its own neighbour. */
+enum { WATCH_BEND = 1, WATCH_END = 2, WATCH_PAIR = 4 };
+
 static const double VOID_SHARE = 0.4, GEODESIC = 1.6, FOLD_SHARE = 0.2;
 
 static double square(double x)
@@ -36,7 +38,6 @@ enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struc
     PM_TRY(pm_samples_new(s, d / 2, 2, &p->samples, err));
     const struct pm_samples *q = &p->samples;
     PM_TRY(PM_NEW(p->share, q->n, err));
-    PM_TRY(PM_NEW(p->need, q->n, err));
     PM_TRY(PM_NEW(p->x, 3 * q->n, err));
     PM_TRY(PM_NEW(p->force, 3 * q->n, err));
     for (ptrdiff_t i = 0; i < q->n; i++)
@@ -54,22 +55,17 @@ done:
     return status;
 }
 
-static void clear_watch(struct penalty *p)
+void penalty_watch_release(struct penalty_watch *w)
 {
-    pm_free(p->bend);
-    pm_free(p->pair);
-    pm_free(p->end);
-    p->bend = p->end = NULL;
-    p->pair = NULL;
-    p->nbend = p->npair = p->nend = 0;
+    pm_free(w->flag);
+    pm_free(w->pair);
+    *w = (struct penalty_watch){0};
 }
 
 void penalty_release(struct penalty *p)
 {
-    clear_watch(p);
     pm_samples_release(&p->samples);
     pm_free(p->share);
-    pm_free(p->need);
     pm_free(p->x);
     pm_free(p->force);
     *p = (struct penalty){0};
@@ -108,48 +104,75 @@ static double pair_limit(const struct penalty *p, const double *x, const double 
     return leave < 0 && enter < 0 ? VOID_SHARE * d : 0;
 }
 
-static enum pm_status watch_pairs(struct penalty *p, double reach, const double *normal,
-                                  struct pm_err *err)
+static int before(const struct penalty_pair *a, const struct penalty_pair *b)
+{
+    return a->i != b->i ? a->i < b->i : a->j < b->j;
+}
+
+/* Union of two sorted lists, the old entry where both have one. */
+static enum pm_status merge_pairs(struct penalty_watch *w, const struct penalty_pair *new,
+                                  ptrdiff_t n, struct pm_err *err)
+{
+    enum pm_status status;
+    struct penalty_pair *both = NULL;
+    ptrdiff_t a = 0, b = 0, count = 0;
+
+    PM_TRY(PM_NEW(both, w->npair + n, err));
+    while (a < w->npair || b < n) {
+        const int old = b == n || (a < w->npair && !before(&new[b], &w->pair[a]));
+        if (old && b < n && !before(&w->pair[a], &new[b]))
+            b++;
+        both[count++] = old ? w->pair[a++] : new[b++];
+    }
+    pm_free(w->pair);
+    w->pair = both;
+    w->npair = count;
+done:
+    return status;
+}
+
+static enum pm_status collect_pairs(struct penalty *p, struct penalty_watch *w, double reach,
+                                    const double *normal, struct pm_err *err)
 {
     enum pm_status status;
     const struct pm_samples *q = &p->samples;
     const double cutoff = p->c->wall_min + p->margin + 2 * reach;
     struct pm_pair *all = NULL;
-    ptrdiff_t n = 0;
+    struct penalty_pair *new = NULL;
+    ptrdiff_t n = 0, count = 0;
 
     PM_TRY(pm_samples_pairs(q, p->x, cutoff, GEODESIC * p->c->wall_min, &all, &n, err));
-    PM_TRY(PM_NEW(p->pair, n, err));
+    PM_TRY(PM_NEW(new, n, err));
     for (ptrdiff_t k = 0; k < n; k++) {
         const double limit = pair_limit(p, p->x, normal, &all[k]);
         if (limit == 0 || all[k].distance > limit + 2 * reach)
             continue;
         const int32_t i = all[k].i, j = all[k].j;
         const double share = fmax(p->share[i], p->share[j]); /* one side may be fixed */
-        p->pair[p->npair++] = (struct penalty_pair){.i = i,
-                                                    .j = j,
-                                                    .limit = limit,
-                                                    .weight = share * fmin(q->area[i], q->area[j]) /
-                                                              square(p->c->wall_min)};
-        p->need[i] = p->need[j] = 1;
+        const double area = fmin(q->area[i], q->area[j]);
+        new[count++] = (struct penalty_pair){
+            .i = i, .j = j, .limit = limit, .weight = share * area / square(p->c->wall_min)};
+        w->flag[i] |= WATCH_PAIR;
+        w->flag[j] |= WATCH_PAIR;
     }
+    PM_TRY(merge_pairs(w, new, count, err));
 done:
     pm_free(all);
+    pm_free(new);
     return status;
 }
 
-enum pm_status penalty_watch(struct penalty *p, const double *phi, double reach, double calm,
-                             struct pm_err *err)
+enum pm_status penalty_collect(struct penalty *p, struct penalty_watch *w, const double *phi,
+                               double reach, double calm, struct pm_err *err)
 {
     enum pm_status status;
     const struct pm_samples *q = &p->samples;
     const double quiet = square(calm * p->c->curvature_max);
     double *normal = NULL, sign;
 
-    clear_watch(p);
-    memset(p->need, 0, (size_t)q->n);
     PM_TRY(PM_NEW(normal, 3 * q->n, err));
-    PM_TRY(PM_NEW(p->bend, q->n, err));
-    PM_TRY(PM_NEW(p->end, q->n, err));
+    if (w->flag == NULL)
+        PM_TRY(PM_NEW(w->flag, q->n, err));
     for (ptrdiff_t i = 0; i < q->n; i++) {
         double r_a[6], r_ab[9];
         struct pm_curvature c;
@@ -157,26 +180,25 @@ enum pm_status penalty_watch(struct penalty *p, const double *phi, double reach,
         pm_curvature_at(r_a, r_ab, &c);
         memcpy(normal + 3 * i, c.n, sizeof c.n);
         if (p->share[i] > 0 && c.Q > quiet)
-            p->bend[p->nbend++] = (int32_t)i;
-        if (p->share[i] > 0 && end_depth(p, i, p->x[3 * i + 2], &sign) + reach > 0) {
-            p->end[p->nend++] = (int32_t)i;
-            p->need[i] = 1;
-        }
+            w->flag[i] |= WATCH_BEND;
+        if (p->share[i] > 0 && end_depth(p, i, p->x[3 * i + 2], &sign) + reach > 0)
+            w->flag[i] |= WATCH_END;
     }
-    PM_TRY(watch_pairs(p, reach, normal, err));
+    PM_TRY(collect_pairs(p, w, reach, normal, err));
 done:
     pm_free(normal);
     return status;
 }
 
-static void add_curvature(const struct penalty *p, const double *phi, double rho, double *gradient,
-                          struct penalty_value *v)
+static void add_curvature(const struct penalty *p, const struct penalty_watch *watch,
+                          const double *phi, double rho, double *gradient, struct penalty_value *v)
 {
     const struct pm_samples *q = &p->samples;
     const double limit = square(p->c->curvature_max);
 
-    for (ptrdiff_t k = 0; k < p->nbend; k++) {
-        const ptrdiff_t i = p->bend[k];
+    for (ptrdiff_t i = 0; i < q->n; i++) {
+        if (!(watch->flag[i] & WATCH_BEND))
+            continue;
         double r_a[6], r_ab[9], Q_a[6], Q_ab[9];
         pm_samples_at(q, i, phi, NULL, r_a, r_ab);
         const double Q = pm_curvature_gradient(r_a, r_ab, Q_a, Q_ab), excess = Q - limit;
@@ -197,10 +219,11 @@ static void add_curvature(const struct penalty *p, const double *phi, double rho
     }
 }
 
-static void add_pairs(struct penalty *p, double rho, struct penalty_value *v)
+static void add_pairs(struct penalty *p, const struct penalty_watch *watch, double rho,
+                      struct penalty_value *v)
 {
-    for (ptrdiff_t k = 0; k < p->npair; k++) {
-        const struct penalty_pair *t = &p->pair[k];
+    for (ptrdiff_t k = 0; k < watch->npair; k++) {
+        const struct penalty_pair *t = &watch->pair[k];
         const double *a = p->x + 3 * t->i, *b = p->x + 3 * t->j, limit = square(t->limit);
         const double e[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
         const double lack = limit - dot(e, e);
@@ -216,11 +239,13 @@ static void add_pairs(struct penalty *p, double rho, struct penalty_value *v)
     }
 }
 
-static void add_ends(struct penalty *p, double rho, struct penalty_value *v)
+static void add_ends(struct penalty *p, const struct penalty_watch *watch, double rho,
+                     struct penalty_value *v)
 {
-    for (ptrdiff_t k = 0; k < p->nend; k++) {
-        const ptrdiff_t i = p->end[k];
+    for (ptrdiff_t i = 0; i < p->samples.n; i++) {
         double sign;
+        if (!(watch->flag[i] & WATCH_END))
+            continue;
         const double depth = end_depth(p, i, p->x[3 * i + 2], &sign) / p->c->wall_min;
         if (!(depth > 0))
             continue;
@@ -230,28 +255,30 @@ static void add_ends(struct penalty *p, double rho, struct penalty_value *v)
     }
 }
 
-void penalty_at(struct penalty *p, const double *phi, const double rho[2], double *gradient,
-                struct penalty_value *v)
+void penalty_at(struct penalty *p, const struct penalty_watch *watch, const double *phi,
+                const double rho[2], double *gradient, struct penalty_value *v)
 {
     const struct pm_samples *q = &p->samples;
 
     *v = (struct penalty_value){0};
-    add_curvature(p, phi, rho[0], gradient, v);
+    add_curvature(p, watch, phi, rho[0], gradient, v);
     for (ptrdiff_t i = 0; i < q->n; i++) {
-        if (!p->need[i])
+        if (!(watch->flag[i] & (WATCH_END | WATCH_PAIR)))
             continue;
         pm_samples_at(q, i, phi, p->x + 3 * i, NULL, NULL);
         memset(p->force + 3 * i, 0, 3 * sizeof *p->force);
     }
-    add_pairs(p, rho[1], v);
-    add_ends(p, rho[1], v);
+    add_pairs(p, watch, rho[1], v);
+    add_ends(p, watch, rho[1], v);
     for (ptrdiff_t i = 0; i < q->n && gradient != NULL; i++)
-        for (ptrdiff_t w = q->ptr[i]; w < q->ptr[i + 1] && p->need[i]; w++)
+        for (ptrdiff_t w = q->ptr[i];
+             w < q->ptr[i + 1] && watch->flag[i] & (WATCH_END | WATCH_PAIR); w++)
             for (int j = 0; j < 3; j++)
                 gradient[3 * q->col[w] + j] += q->c[w] * p->force[3 * i + j];
 }
 
-double penalty_safe_part(struct penalty *p, const double *phi, const double *step)
+double penalty_safe_part(struct penalty *p, const struct penalty_watch *watch, const double *phi,
+                         const double *step)
 {
     const struct pm_samples *q = &p->samples;
     double part = 1;
@@ -270,8 +297,8 @@ double penalty_safe_part(struct penalty *p, const double *phi, const double *ste
                 break;
         }
     }
-    for (ptrdiff_t k = 0; k < p->npair; k++) {
-        const ptrdiff_t i = 3 * p->pair[k].i, j = 3 * p->pair[k].j;
+    for (ptrdiff_t k = 0; k < watch->npair; k++) {
+        const ptrdiff_t i = 3 * watch->pair[k].i, j = 3 * watch->pair[k].j;
         double e[3], d[3];
         for (int m = 0; m < 3; m++) {
             e[m] = p->x[i + m] - p->x[j + m];

@@ -25,14 +25,15 @@ struct penalty {
     struct pm_samples samples;
     double *share; /* a_q, 0 where nothing is free (n) */
     double margin; /* of the distance between samples over that of the surfaces [mm] */
-    /* what may become active within the reach of a step */
-    ptrdiff_t nbend, npair, nend;
-    int32_t *bend;             /* samples for curvature (nbend) */
-    struct penalty_pair *pair; /* (npair) */
-    int32_t *end;              /* samples near the end planes (nend) */
-    unsigned char *need;       /* 1: the position of the sample is needed (n) */
-    double *x;                 /* positions, scratch (n x 3) [mm] */
-    double *force;             /* dC/dr of the samples, scratch (n x 3) */
+    double *x;     /* positions, scratch (n x 3) [mm] */
+    double *force; /* dC/dr of the samples, scratch (n x 3) */
+};
+
+/* What may become active within the reach of a step. */
+struct penalty_watch {
+    unsigned char *flag; /* what to evaluate, private bits (n) */
+    ptrdiff_t npair;
+    struct penalty_pair *pair; /* by i, then j (npair) */
 };
 
 struct penalty_value {
@@ -43,16 +44,19 @@ struct penalty_value {
 
 enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struct pm_err *err);
 void penalty_release(struct penalty *p);
-/* Collects what can become active if every point moves by at most `reach` mm from phi (N x 3) and
- * curvatures below `calm` times Cmax do not; reach 0, calm 1: the present violations. */
-enum pm_status penalty_watch(struct penalty *p, const double *phi, double reach, double calm,
-                             struct pm_err *err);
+/* Adds to *watch (empty: zeros) what can become active if every point moves by at most `reach` mm
+ * from phi (N x 3) and curvatures below `calm` times Cmax do not; reach 0, calm 1: the present
+ * violations. */
+enum pm_status penalty_collect(struct penalty *p, struct penalty_watch *watchatch,
+                               const double *phi, double reach, double calm, struct pm_err *err);
+void penalty_watch_release(struct penalty_watch *watch);
 /* The collected terms at phi; gradient (N x 3) += d(rho_c curvature + rho_t wall)/dphi unless NULL.
  */
-void penalty_at(struct penalty *p, const double *phi, const double rho[2], double *gradient,
-                struct penalty_value *v);
+void penalty_at(struct penalty *p, const struct penalty_watch *watchatch, const double *phi,
+                const double rho[2], double *gradient, struct penalty_value *v);
 /* Largest part t in (0, 1] of a step for which no watched pair moves by more than half its distance
  * (walls cannot be crossed) and no area element falls below FOLD_SHARE of its size. */
-double penalty_safe_part(struct penalty *p, const double *phi, const double *step);
+double penalty_safe_part(struct penalty *p, const struct penalty_watch *watchatch,
+                         const double *phi, const double *step);
 
 #endif

@@ -18,6 +18,7 @@ enum { ROUNDS = 3, LOWERINGS = 8 };
 struct proposal {
     struct pm_step *s;
     struct penalty penalty;
+    struct penalty_watch watch;
     ptrdiff_t N;
     double *phi;   /* accepted control points (N x 3) [mm] */
     double *step;  /* (N x 3) [mm] */
@@ -31,7 +32,7 @@ static double penalise(void *context, const double *step, double *gradient)
     struct penalty_value v;
     for (ptrdiff_t i = 0; i < 3 * p->N; i++)
         p->trial[i] = p->phi[i] + step[i];
-    penalty_at(&p->penalty, p->trial, p->s->weight, gradient, &v);
+    penalty_at(&p->penalty, &p->watch, p->trial, p->s->weight, gradient, &v);
     return p->s->weight[0] * v.curvature + p->s->weight[1] * v.wall;
 }
 
@@ -47,15 +48,17 @@ static enum pm_status full_penalty(struct proposal *p, const double *phi, double
 {
     enum pm_status status;
     struct penalty_value v;
+    struct penalty_watch all = {0};
     const double none[2] = {0, 0};
 
-    PM_TRY(penalty_watch(&p->penalty, phi, 0, 1, err));
-    penalty_at(&p->penalty, phi, none, NULL, &v);
+    PM_TRY(penalty_collect(&p->penalty, &all, phi, 0, 1, err));
+    penalty_at(&p->penalty, &all, phi, none, NULL, &v);
     sum[0] = v.curvature;
     sum[1] = v.wall;
     worst[0] = v.worst_curvature;
     worst[1] = v.worst_wall;
 done:
+    penalty_watch_release(&all);
     return status;
 }
 
@@ -86,16 +89,15 @@ static enum pm_status solve(struct proposal *p, struct pm_err *err)
 
     memset(p->step, 0, (size_t)(3 * p->N) * sizeof *p->step);
     for (int round = 0; round < ROUNDS; round++) {
-        PM_TRY(
-            penalty_watch(&p->penalty, p->phi, s->radius * (round + 1), round == 0 ? 0.5 : 0, err));
         PM_TRY(subproblem_solve(&problem, p->step, err));
-        const double part = penalty_safe_part(&p->penalty, p->phi, p->step);
+        const double part = penalty_safe_part(&p->penalty, &p->watch, p->phi, p->step);
         for (ptrdiff_t i = 0; i < 3 * p->N; i++)
             p->step[i] *= part;
         const double watched = penalise(p, p->step, NULL);
         PM_TRY(full_penalty(p, p->trial, s->trial_penalty, s->trial_worst, err));
         if (weighted(s, s->trial_penalty) <= watched + 0.02 * unit)
             break;
+        PM_TRY(penalty_collect(&p->penalty, &p->watch, p->trial, s->radius / 4, 0.8, err));
     }
     s->gain = 0;
     s->max_step = 0;
@@ -117,13 +119,14 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
     const struct subproblem problem = subproblem_of(p);
     const double unit = s->radius * subproblem_dual_norm(&problem, s->gradient);
 
+    PM_TRY(penalty_collect(&p->penalty, &p->watch, p->phi, s->radius / 4, 0.7, err));
     for (int k = 0;; k++) {
         PM_TRY(solve(p, err));
         const double gain = s->gain - weighted(s, s->trial_penalty) + weighted(s, s->penalty);
         pm_log(
             2,
             "sub-problem: gain of T %.4g of %.4g, of merit %.4g, violations %.3g %.3g, %td pairs",
-            s->gain, unit, gain, s->trial_worst[0], s->trial_worst[1], p->penalty.npair);
+            s->gain, unit, gain, s->trial_worst[0], s->trial_worst[1], p->watch.npair);
         if (gain > 0 && s->gain > LEAST_GAIN * unit)
             break;
         if (k == LOWERINGS) {
@@ -164,6 +167,7 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
         memcpy(s->trial_worst, s->worst, sizeof s->worst);
     }
 done:
+    penalty_watch_release(&p.watch);
     penalty_release(&p.penalty);
     pm_free(p.phi);
     pm_free(p.step);

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/base/log.h"
 #include "common/base/memory.h"
 
 /* Weights of the two bounds relative to the largest linear gain: 4 BALL t (t^2 - 1) = 1 at the end
@@ -15,6 +16,7 @@ struct scaled {
     double gain;   /* largest linear gain |G|* radius, the unit of the objective */
     double *step;  /* (N x 3) */
     double *slope; /* derivative by step (N x 3) */
+    ptrdiff_t evaluations;
 };
 
 double subproblem_norm(const struct subproblem *s, const double *step)
@@ -43,12 +45,13 @@ static double point_square(const double *step)
 static lbfgsfloatval_t evaluate(void *instance, const lbfgsfloatval_t *z, lbfgsfloatval_t *g,
                                 const int n, const lbfgsfloatval_t length)
 {
-    const struct scaled *c = instance;
+    struct scaled *c = instance;
     const struct subproblem *s = c->s;
     const double cap = 4 * s->radius * s->radius;
     double f = 0, ball = -1;
 
     (void)length;
+    c->evaluations++;
     for (ptrdiff_t i = 3 * s->N; i < n; i++) /* SSE builds of the library round n up */
         g[i] = 0;
     for (ptrdiff_t i = 0; i < 3 * s->N; i++) {
@@ -72,7 +75,7 @@ static lbfgsfloatval_t evaluate(void *instance, const lbfgsfloatval_t *z, lbfgsf
     f += BALL * over * over;
     for (ptrdiff_t i = 0; i < 3 * s->N; i++)
         g[i] = c->slope[i] * s->radius / sqrt(s->mass[i / 3]) / c->gain + 4 * BALL * over * z[i];
-    return f + 2; /* positive, as the relative stopping rule wants it */
+    return isfinite(f) ? f + 2 : HUGE_VAL; /* positive, as the relative stopping rule wants it */
 }
 
 static void bound_step(const struct subproblem *s, double *step)
@@ -99,6 +102,8 @@ enum pm_status subproblem_solve(const struct subproblem *s, double *step, struct
 
     lbfgs_parameter_init(&parameter);
     parameter.m = 10;
+    /* halving survives steps that fold a surface, where curvatures are infinite */
+    parameter.linesearch = LBFGS_LINESEARCH_BACKTRACKING_STRONG_WOLFE;
     parameter.max_iterations = 100;
     parameter.epsilon = 1e-3;
     parameter.past = 5; /* also ends where five iterations gain less than 1e-3 of the objective */
@@ -113,7 +118,9 @@ enum pm_status subproblem_solve(const struct subproblem *s, double *step, struct
         z[i] = step[i] * sqrt(s->mass[i / 3]) / s->radius;
     /* Line searches that end at rounding leave the best point in z; only exhaustion of memory is a
      * failure. */
-    if (lbfgs((int)n, z, &f, evaluate, NULL, &c, &parameter) == LBFGSERR_OUTOFMEMORY)
+    const int end = lbfgs((int)n, z, &f, evaluate, NULL, &c, &parameter);
+    pm_log(2, "L-BFGS: code %d after %td evaluations, objective %.4g", end, c.evaluations, f - 2);
+    if (end == LBFGSERR_OUTOFMEMORY)
         PM_TRY(pm_fail(err, PM_SYSTEM, "out of memory"));
     for (ptrdiff_t i = 0; i < n; i++)
         step[i] = z[i] * s->radius / sqrt(s->mass[i / 3]);
