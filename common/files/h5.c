@@ -29,6 +29,9 @@ struct pm_h5 {
 
 void pm_h5_quiet(void)
 {
+    /* Its clean-up at exit crashes after a write that failed (disk full); every file is closed here
+     * anyway. */
+    H5dont_atexit();
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
@@ -280,36 +283,46 @@ void pm_h5_close(struct pm_h5 *f)
     pm_free(f);
 }
 
+/* 1: the groups above `name` exist; `make` creates the missing ones. (H5Lexists wants them all, and
+ * HDF5's own way of creating them notes the time.) */
+static int has_groups(struct pm_h5 *f, const char *name, int make)
+{
+    char part[256];
+    int ok = 1;
+    snprintf(part, sizeof part, "%s", name);
+    hid_t list = H5Pcreate(H5P_GROUP_CREATE);
+    H5Pset_obj_track_times(list, 0);
+    for (char *p = strchr(part + 1, '/'); p != NULL && ok; p = strchr(p + 1, '/')) {
+        *p = '\0';
+        ok = H5Lexists(f->id, part, H5P_DEFAULT) > 0;
+        if (!ok && make) {
+            hid_t group = H5Gcreate2(f->id, part, H5P_DEFAULT, list, H5P_DEFAULT);
+            ok = group >= 0 && H5Gclose(group) >= 0;
+        }
+        *p = '/';
+    }
+    H5Pclose(list);
+    return ok;
+}
+
+int pm_h5_has(struct pm_h5 *f, const char *name)
+{
+    return has_groups(f, name, 0) && H5Lexists(f->id, name, H5P_DEFAULT) > 0;
+}
+
 /* Datasets */
 
 static hid_t memory_type(enum pm_type type)
 {
-    switch (type) {
-    case PM_TYPE_DOUBLE:
-        return H5T_NATIVE_DOUBLE;
-    case PM_TYPE_INT32:
-        return H5T_NATIVE_INT32;
-    case PM_TYPE_INT64:
-        return H5T_NATIVE_INT64;
-    case PM_TYPE_UINT8:
-        return H5T_NATIVE_UINT8;
-    default:
-        return H5T_C_S1;
-    }
+    const hid_t types[] = {H5T_NATIVE_DOUBLE, H5T_NATIVE_INT32, H5T_NATIVE_INT64, H5T_NATIVE_UINT8,
+                           H5T_C_S1};
+    return types[type];
 }
 
 static hid_t file_type(enum pm_type type)
 {
-    switch (type) {
-    case PM_TYPE_DOUBLE:
-        return H5T_IEEE_F64LE;
-    case PM_TYPE_INT32:
-        return H5T_STD_I32LE;
-    case PM_TYPE_INT64:
-        return H5T_STD_I64LE;
-    default:
-        return H5T_STD_U8LE;
-    }
+    const hid_t types[] = {H5T_IEEE_F64LE, H5T_STD_I32LE, H5T_STD_I64LE, H5T_STD_U8LE, H5T_C_S1};
+    return types[type];
 }
 
 static enum pm_status find_item(const struct pm_h5 *f, const char *name,
@@ -346,10 +359,9 @@ static hid_t storage(const struct pm_item *item, int rank, const hsize_t *dims, 
 static int create_dataset(struct pm_h5 *f, const char *name, const struct pm_item *item, hid_t type,
                           hid_t space, hid_t list, hid_t memory, const void *data)
 {
-    hid_t links = H5Pcreate(H5P_LINK_CREATE);
-    H5Pset_create_intermediate_group(links, 1);
-    hid_t set = H5Dcreate2(f->id, name, type, space, links, list, H5P_DEFAULT);
-    H5Pclose(links);
+    if (!has_groups(f, name, 1))
+        return 0;
+    hid_t set = H5Dcreate2(f->id, name, type, space, H5P_DEFAULT, list, H5P_DEFAULT);
     if (set < 0)
         return 0;
     int ok = H5Dwrite(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) >= 0;
@@ -418,20 +430,6 @@ static void close_entry(struct entry *e)
         H5Tclose(e->type);
     if (e->set >= 0)
         H5Dclose(e->set);
-}
-
-int pm_h5_has(struct pm_h5 *f, const char *name)
-{
-    /* H5Lexists wants every group on the way to exist. */
-    char part[256];
-    snprintf(part, sizeof part, "%s", name);
-    for (char *p = strchr(part + 1, '/'); p != NULL; p = strchr(p + 1, '/')) {
-        *p = '\0';
-        if (H5Lexists(f->id, part, H5P_DEFAULT) <= 0)
-            return 0;
-        *p = '/';
-    }
-    return H5Lexists(f->id, part, H5P_DEFAULT) > 0;
 }
 
 static int type_fits(hid_t found, enum pm_type type)
@@ -567,10 +565,8 @@ done:
 
 enum pm_status pm_h5_link(struct pm_h5 *f, const char *target, const char *name, struct pm_err *err)
 {
-    hid_t links = H5Pcreate(H5P_LINK_CREATE);
-    H5Pset_create_intermediate_group(links, 1);
-    int ok = H5Lcreate_soft(target, f->id, name, links, H5P_DEFAULT) >= 0;
-    H5Pclose(links);
+    int ok = has_groups(f, name, 1) &&
+             H5Lcreate_soft(target, f->id, name, H5P_DEFAULT, H5P_DEFAULT) >= 0;
     return ok ? PM_OK : write_failed(f, name, err);
 }
 
