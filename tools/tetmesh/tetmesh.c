@@ -8,6 +8,7 @@
 #include "common/mechanics/extension.h"
 #include "tools/tetmesh/curve.h"
 #include "tools/tetmesh/shell.h"
+#include "tools/tetmesh/split.h"
 #include "tools/tetmesh/volume_gmsh.h"
 #include "tools/tetmesh/weights.h"
 
@@ -23,6 +24,7 @@ static enum pm_status generate(const struct pm_surfaces *s, double size, double 
     struct pm_tetra tetra = {0};
     struct pm_curve_report r;
     int32_t *part = NULL;
+    ptrdiff_t left = 0;
     PM_TRY(pm_shell_build(s, size, timeout, &shell, err));
     PM_TRY(pm_shell_check(&shell, s->ns - 1, err));
     PM_TRY(PM_NEW(part, shell.nt, err));
@@ -32,6 +34,8 @@ static enum pm_status generate(const struct pm_surfaces *s, double size, double 
     PM_TRY(pm_gmsh_volume(&in, timeout, &tetra, err));
     if (tetra.delaunay)
         pm_warn("the HXT mesher failed (%s): meshed by Delaunay", tetra.why);
+    PM_TRY(pm_split_two_faces(&shell, &tetra, &left, err));
+    pm_log(2, "%td tetrahedra keep two faces on one surface", left);
     PM_TRY(pm_curve_mesh(s, &shell, &tetra, m, &r, err));
     m->origin = PM_ORIGIN_GENERATED;
     m->delaunay = tetra.delaunay;
