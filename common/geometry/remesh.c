@@ -106,7 +106,7 @@ static void target_rim(const struct pm_edit *m, ptrdiff_t a, double d[3])
         const int32_t *v = m->tri + 3 * (ptrdiff_t)m->around[a * PM_EDIT_DEGREE + k];
         for (int i = 0; i < 3; i++) {
             const ptrdiff_t b = v[i];
-            if (b == a || m->rim[b] != m->rim[a])
+            if (b == a || (m->rim[b] & m->rim[a]) == 0)
                 continue;
             for (int j = 0; j < 3; j++)
                 d[j] += m->x[3 * b + j] - m->x[3 * a + j];
@@ -123,6 +123,8 @@ static enum pm_status smooth_node(struct pm_edit *m, ptrdiff_t a, struct pm_err 
 {
     enum pm_status status = PM_OK;
     double d[3], r_a[6], step[2], S0[3];
+    if (m->type == PM_SURFACE_SPHERE && (m->rim[a] & (m->rim[a] - 1)) != 0)
+        return PM_OK; /* a corner of two mirror planes */
     const double before = pm_edit_worst(m, a);
     if (m->rim[a])
         target_rim(m, a, d);
@@ -140,15 +142,15 @@ static enum pm_status smooth_node(struct pm_edit *m, ptrdiff_t a, struct pm_err 
     const double det = g[0] * g[2] - g[1] * g[1];
     if (!(det > 0) || !(g[0] > 0))
         goto done;
-    step[0] = m->rim[a] ? f[0] / g[0] : (g[2] * f[0] - g[1] * f[1]) / det;
-    step[1] = m->rim[a] ? 0 : (g[0] * f[1] - g[1] * f[0]) / det;
+    const int rim = m->rim[a] && m->type == PM_SURFACE_BSPLINE;
+    step[0] = rim ? f[0] / g[0] : (g[2] * f[0] - g[1] * f[1]) / det;
+    step[1] = rim ? 0 : (g[0] * f[1] - g[1] * f[0]) / det;
     for (int i = 0; i < 3; i++)
         S0[i] = m->S[3 * a + i];
     for (int half = 0; half < 4; half++) {
         const double now_step[2] = {ldexp(step[0], -half), ldexp(step[1], -half)};
         pm_map_move(m->type, S0, now_step, m->S + 3 * a);
-        if (m->rim[a])
-            m->S[3 * a + 2] = S0[2];
+        pm_edit_constrain(m, a, m->S + 3 * a);
         PM_TRY(pm_edit_place(m, a, err));
         const double now = pm_edit_worst(m, a);
         if (now > 0.3 || now >= before)
@@ -170,6 +172,9 @@ enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct p
     *p = (struct pm_patch){0};
     PM_TRY(pm_map_new(s, &map, err));
     PM_TRY(pm_edit_init(&m, s, map, surface, err));
+    for (int j = 0; j < 3; j++)
+        if (o->mirror[j])
+            PM_TRY(pm_edit_halve(&m, j, err));
     for (int sweep = 0; sweep < o->sweeps; sweep++) {
         ptrdiff_t count = 1;
         PM_TRY(set_sizes(&m, o, err));

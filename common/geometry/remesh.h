@@ -13,6 +13,7 @@ struct pm_remesh_opts {
     double crest;    /* edge length <= crest / curvature [1] */
     double growth;   /* largest change of the wanted length per unit length [1] */
     int sweeps;
+    int mirror[3]; /* sphere: 1: mesh only S_j >= 0; nodes on the plane S_j = 0 stay on it */
 };
 
 /* A triangulated surface with parameters. */
@@ -21,7 +22,8 @@ struct pm_patch {
     double *S;    /* surface parameter                               (nn x 3) */
     double *x;    /* r(S)                                            (nn x 3) [mm] */
     double *size; /* wanted edge length                              (nn)     [mm] */
-    uint8_t *rim; /* B-spline: 1 on v = 0, 2 on v = 1; 0 elsewhere   (nn) */
+    uint8_t *rim; /* B-spline: 1 on v = 0, 2 on v = 1; sphere: bits 1 << j of the mirror planes; 0
+                     elsewhere (nn) */
     int32_t *tri; /* normal out of the closed surface                (nt x 3) */
 };
 

@@ -186,7 +186,7 @@ static enum pm_status check_start(const struct pm_edit *m, int surface, struct p
             ptrdiff_t f[2], opp[2];
             const ptrdiff_t a = v[k], b = v[(k + 1) % 3];
             const int n = on_edge(m, a, b, f, opp);
-            const int rim = m->rim[a] != 0 && m->rim[a] == m->rim[b];
+            const int rim = (m->rim[a] & m->rim[b]) != 0;
             if (n > 2 || f[0] != t || (n == 1 && !rim))
                 return pm_fail(
                     err, PM_INPUT,
@@ -265,8 +265,25 @@ static void cut(struct pm_edit *m, ptrdiff_t t, ptrdiff_t a, ptrdiff_t b, ptrdif
     attach(m, e, f);
 }
 
-static enum pm_status split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, int *done_it,
-                                 struct pm_err *err)
+void pm_edit_constrain(const struct pm_edit *m, ptrdiff_t a, double S[3])
+{
+    double sum = 0;
+    if (m->rim[a] == 0)
+        return;
+    if (m->type == PM_SURFACE_BSPLINE) {
+        S[2] = m->rim[a] - 1;
+        return;
+    }
+    for (int j = 0; j < 3; j++) {
+        S[j] = m->rim[a] & 1 << j ? 0 : S[j];
+        sum += S[j] * S[j];
+    }
+    for (int j = 0; j < 3; j++)
+        S[j] /= sqrt(sum);
+}
+
+enum pm_status pm_edit_split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, const double *S,
+                                  int *done_it, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     ptrdiff_t t[2], opp[2];
@@ -277,10 +294,12 @@ static enum pm_status split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, in
             return PM_OK;
     PM_TRY(reserve(m, m->nn + 1, m->nt + 2, err));
     const ptrdiff_t e = m->nn++;
-    pm_map_middle(m->type, m->S + 3 * a, m->S + 3 * b, m->S + 3 * e);
-    m->rim[e] = n == 1 ? m->rim[a] : 0;
-    if (m->rim[e])
-        m->S[3 * e + 2] = m->rim[e] - 1;
+    if (S != NULL)
+        memcpy(m->S + 3 * e, S, 3 * sizeof *S);
+    else
+        pm_map_middle(m->type, m->S + 3 * a, m->S + 3 * b, m->S + 3 * e);
+    m->rim[e] = (uint8_t)(n == 1 ? m->rim[a] & m->rim[b] : 0);
+    pm_edit_constrain(m, e, m->S + 3 * e);
     m->size[e] = wanted(m, a, b);
     m->degree[e] = 0;
     PM_TRY(pm_edit_place(m, e, err));
@@ -303,7 +322,7 @@ enum pm_status pm_edit_split(struct pm_edit *m, ptrdiff_t *count, struct pm_err 
             const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
             int done_it = 0;
             if (length(m, a, b) > split_ratio * wanted(m, a, b))
-                PM_TRY(split_edge(m, a, b, &done_it, err));
+                PM_TRY(pm_edit_split_edge(m, a, b, NULL, &done_it, err));
             *count += done_it;
         }
     }
@@ -321,7 +340,7 @@ static int link_ok(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, const ptrd
             const ptrdiff_t c = m->tri[3 * t + i];
             if (c == a || c == b || c == opp[0] || c == opp[1])
                 continue;
-            if (adjacent(m, c, b) || (m->rim[c] != 0 && m->rim[c] == m->rim[b] && m->rim[a] == 0))
+            if (adjacent(m, c, b) || (m->rim[c] & m->rim[b] & ~m->rim[a]) != 0)
                 return 0;
         }
     }
@@ -333,7 +352,7 @@ static int may_collapse(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
 {
     ptrdiff_t t[2], opp[2];
     const int n = on_edge(m, a, b, t, opp);
-    if (m->rim[a] != 0 && n != 1)
+    if ((m->rim[a] != 0 && n != 1) || (m->rim[a] & ~m->rim[b]) != 0)
         return 0;
     for (int k = 0; k < 2; k++)
         if (opp[k] >= 0 && m->degree[opp[k]] <= 3 && m->rim[opp[k]] == 0)
@@ -354,6 +373,13 @@ static int may_collapse(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
             return 0;
     }
     return 1;
+}
+
+void pm_edit_remove(struct pm_edit *m, ptrdiff_t t)
+{
+    for (int i = 0; i < 3; i++)
+        detach(m, m->tri[3 * t + i], t);
+    m->tri[3 * t] = -1;
 }
 
 static void collapse_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
@@ -417,8 +443,7 @@ static int flip_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
     if (cotangent(m, a, b, c) + cotangent(m, a, b, d) > -1e-6)
         return 0;
     if (m->degree[a] <= 3 || m->degree[b] <= 3 || m->degree[c] >= PM_EDIT_DEGREE - 1 ||
-        m->degree[d] >= PM_EDIT_DEGREE - 1 || adjacent(m, c, d) ||
-        (m->rim[c] != 0 && m->rim[c] == m->rim[d]))
+        m->degree[d] >= PM_EDIT_DEGREE - 1 || adjacent(m, c, d) || (m->rim[c] & m->rim[d]) != 0)
         return 0;
     const double before = fmin(facet_of(m, t[0]), facet_of(m, t[1]));
     const double now = fmin(facet(m, a, d, c), facet(m, d, b, c));
