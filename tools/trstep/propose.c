@@ -90,14 +90,16 @@ static enum pm_status solve(struct proposal *p, struct pm_err *err)
     memset(p->step, 0, (size_t)(3 * p->N) * sizeof *p->step);
     for (int round = 0; round < ROUNDS; round++) {
         PM_TRY(subproblem_solve(&problem, p->step, err));
-        const double part = penalty_safe_part(&p->penalty, &p->watch, p->phi, p->step);
-        for (ptrdiff_t i = 0; i < 3 * p->N; i++)
-            p->step[i] *= part;
-        const double watched = penalise(p, p->step, NULL);
-        PM_TRY(full_penalty(p, p->trial, s->trial_penalty, s->trial_worst, err));
-        if (weighted(s, s->trial_penalty) <= watched + 0.02 * unit)
-            break;
+        const double known = penalise(p, p->step, NULL);
         PM_TRY(penalty_collect(&p->penalty, &p->watch, p->trial, s->radius / 4, 0.8, err));
+        const double part = penalty_safe_part(&p->penalty, &p->watch, p->phi, p->step);
+        for (ptrdiff_t i = 0; i < 3 * p->N; i++) {
+            p->step[i] *= part;
+            p->trial[i] = p->phi[i] + p->step[i];
+        }
+        PM_TRY(full_penalty(p, p->trial, s->trial_penalty, s->trial_worst, err));
+        if (weighted(s, s->trial_penalty) <= known + 0.02 * unit)
+            break;
     }
     s->gain = 0;
     s->max_step = 0;
