@@ -203,3 +203,43 @@ enum pm_status pm_symmetry_find(struct pm_surfaces *s, double tolerance, struct 
 done:
     return status;
 }
+
+ptrdiff_t pm_symmetry_source(const struct pm_symmetry *y, ptrdiff_t k, ptrdiff_t *g)
+{
+    for (ptrdiff_t r = 0; r < k; r++)
+        for (*g = 0; *g < y->nops; ++*g)
+            if (y->chamber[*g][r] == k)
+                return r;
+    *g = 0;
+    return k;
+}
+
+enum pm_status pm_symmetry_image(const struct pm_symmetry *y, ptrdiff_t g,
+                                 const struct pm_surface *from, struct pm_surface *to,
+                                 struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const double *Q = y->Q[g];
+    double det = Q[0] * (Q[4] * Q[8] - Q[5] * Q[7]) - Q[1] * (Q[3] * Q[8] - Q[5] * Q[6]) +
+                 Q[2] * (Q[3] * Q[7] - Q[4] * Q[6]);
+
+    *to = (struct pm_surface){.type = from->type, .n = from->n, .nt = from->nt};
+    PM_TRY(PM_NEW(to->phi, 3 * to->n, err));
+    PM_TRY(PM_NEW(to->free, 3 * to->n, err));
+    PM_TRY(PM_NEW(to->Phi, 3 * to->n, err));
+    PM_TRY(PM_NEW(to->d0, to->n, err));
+    PM_TRY(PM_NEW(to->tri, 3 * to->nt, err));
+    for (ptrdiff_t i = 0; i < from->n; i++) {
+        transform(y, g, 0, 0, &from->Phi[3 * i], &to->Phi[3 * i]);
+        transform(y, g, 0, 1, &from->phi[3 * i], &to->phi[3 * i]);
+    }
+    memcpy(to->free, from->free, 3 * (size_t)from->n);
+    memcpy(to->d0, from->d0, (size_t)from->n * sizeof *to->d0);
+    memcpy(to->tri, from->tri, 3 * (size_t)from->nt * sizeof *to->tri);
+    for (ptrdiff_t k = 0; det < 0 && k < to->nt; k++) {
+        to->tri[3 * k + 1] = from->tri[3 * k + 2];
+        to->tri[3 * k + 2] = from->tri[3 * k + 1];
+    }
+done:
+    return status;
+}

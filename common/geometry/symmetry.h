@@ -19,4 +19,11 @@ enum pm_status pm_symmetry_find(struct pm_surfaces *s, double tolerance, struct 
 /* Makes Phi and d0 of the closed surfaces exact along the orbits, as pm_symmetrise_points does for phi. */
 enum pm_status pm_symmetrise_reference(struct pm_surfaces *s, struct pm_err *err);
 
+/* Chamber k (0-based) as the image of an earlier one: chamber r < k goes to k under operation *g; returns r, or k
+ * itself (*g = 0) where it comes first in its orbit. */
+ptrdiff_t pm_symmetry_source(const struct pm_symmetry *y, ptrdiff_t k, ptrdiff_t *g);
+/* The image of a closed surface under operation g, point by point. */
+enum pm_status pm_symmetry_image(const struct pm_symmetry *y, ptrdiff_t g, const struct pm_surface *from,
+                                 struct pm_surface *to, struct pm_err *err);
+
 #endif

@@ -138,32 +138,3 @@ done:
     pm_free(ring);
     return status;
 }
-
-enum pm_status pm_chamber_image(const struct pm_surface *from, const double Q[9], const double t[3],
-                                struct pm_surface *to, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    double det = Q[0] * (Q[4] * Q[8] - Q[5] * Q[7]) - Q[1] * (Q[3] * Q[8] - Q[5] * Q[6]) +
-                 Q[2] * (Q[3] * Q[7] - Q[4] * Q[6]);
-
-    *to = (struct pm_surface){.type = from->type, .n = from->n, .nt = from->nt};
-    PM_TRY(reserve(to, err));
-    for (ptrdiff_t i = 0; i < from->n; i++)
-        for (int k = 0; k < 3; k++) {
-            double P = 0, x = 0;
-            for (int j = 0; j < 3; j++) {
-                P += Q[3 * k + j] * from->Phi[3 * i + j];
-                x += Q[3 * k + j] * from->phi[3 * i + j];
-            }
-            to->Phi[3 * i + k] = P;
-            to->phi[3 * i + k] = x + t[k];
-        }
-    memcpy(to->d0, from->d0, (size_t)from->n * sizeof *to->d0);
-    memcpy(to->tri, from->tri, 3 * (size_t)from->nt * sizeof *to->tri);
-    for (ptrdiff_t k = 0; det < 0 && k < to->nt; k++) {
-        to->tri[3 * k + 1] = from->tri[3 * k + 2];
-        to->tri[3 * k + 2] = from->tri[3 * k + 1];
-    }
-done:
-    return status;
-}

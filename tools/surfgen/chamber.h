@@ -10,8 +10,4 @@
  * (unfitted), d0 is not set. */
 enum pm_status pm_chamber_seed(const struct pm_chamber *c, const struct pm_profile *p, ptrdiff_t multiple,
                                struct pm_surface *s, struct pm_err *err);
-/* The image of a closed surface under x -> Q x + t. */
-enum pm_status pm_chamber_image(const struct pm_surface *from, const double Q[9], const double t[3],
-                                struct pm_surface *to, struct pm_err *err);
-
 #endif

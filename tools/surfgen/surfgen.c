@@ -34,11 +34,10 @@ static enum pm_status seed_chamber(const struct plan *p, ptrdiff_t k, struct pm_
                                    struct pm_err *err)
 {
     const struct pm_symmetry *y = &p->c->symmetry;
+    ptrdiff_t g, r = pm_symmetry_source(y, k, &g);
 
-    for (ptrdiff_t r = 0; r < k; r++)
-        for (ptrdiff_t g = 0; g < y->nops; g++)
-            if (y->chamber[g][r] == k)
-                return pm_chamber_image(&s->s[r + 1], y->Q[g], y->t[g], &s->s[k + 1], err);
+    if (r < k)
+        return pm_symmetry_image(y, g, &s->s[r + 1], &s->s[k + 1], err);
     return pm_chamber_seed(&p->c->chamber[k], &p->profile[k], ring_multiple(y, k), &s->s[k + 1],
                            err);
 }
