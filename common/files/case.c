@@ -147,7 +147,7 @@ static int take_integer(struct parser *p, const struct key *k, const char *value
 
 static int take_numbers(struct parser *p, const struct key *k, const char *value, void *target)
 {
-    double v[3];
+    double v[3] = {0};
     const char *at = value;
     for (size_t i = 0; i < k->size; i++) {
         char *end;

@@ -379,7 +379,7 @@ enum pm_status pm_h5_put(struct pm_h5 *f, const char *name, const ptrdiff_t *dim
     if (status != PM_OK)
         return status;
     struct pm_size size[PM_MAX_RANK];
-    hsize_t d[PM_MAX_RANK];
+    hsize_t d[PM_MAX_RANK] = {1};
     int rank = pm_schema_sizes(item, index, PM_MAX_RANK, size);
     size_t bytes = H5Tget_size(memory_type(item->type));
     for (int k = 0; k < rank; k++) {

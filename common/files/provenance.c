@@ -67,7 +67,7 @@ static enum pm_status add_input(struct pm_provenance *p, const char *path, struc
 {
     enum pm_status status;
     char *kind = NULL, *history = NULL, *command = NULL;
-    unsigned long crc;
+    unsigned long crc = 0;
     char line[512];
     PM_TRY(pm_h5_ancestry(path, &kind, &history, &command, err));
     PM_TRY(digest(path, &crc, err));
