@@ -1,6 +1,8 @@
 #include "common/geometry/check.h"
 
 #include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "common/base/memory.h"
@@ -29,23 +31,31 @@ static double side(const struct field *f, ptrdiff_t k, const double p[3])
     return copysign(sqrt(best), sign);
 }
 
-/* Some samples of chamber k against the exterior and the other chambers; the wall test has
- * the last word: surfaces that cross have no wall. */
-static enum pm_status contained(const struct field *f, ptrdiff_t k, struct pm_err *err)
+__attribute__((format(printf, 2, 3))) static void fault(struct pm_check *c, const char *format, ...)
+{
+    va_list args;
+
+    if (c->fault[0] != '\0')
+        return;
+    va_start(args, format);
+    vsnprintf(c->fault, sizeof c->fault, format, args);
+    va_end(args);
+}
+
+/* Some samples of chamber k against the exterior and the other chambers; the wall has the last
+ * word: surfaces that cross have none. */
+static void containment(const struct field *f, ptrdiff_t k, struct pm_check *c)
 {
     double H = f->s->pcase.height;
 
     for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i += 16) {
         const double *p = &f->x[3 * i];
         if (p[2] <= 0 || p[2] >= H || side(f, 0, p) >= 0)
-            return pm_fail(err, PM_INPUT, "chamber %td leaves the body at (%.4g, %.4g, %.4g)", k,
-                           p[0], p[1], p[2]);
+            fault(c, "chamber %td leaves the body at (%.4g, %.4g, %.4g)", k, p[0], p[1], p[2]);
         for (ptrdiff_t l = 1; l < f->s->ns; l++)
             if (l != k && side(f, l, p) <= 0)
-                return pm_fail(err, PM_INPUT, "chambers %td and %td meet at (%.4g, %.4g, %.4g)", k,
-                               l, p[0], p[1], p[2]);
+                fault(c, "chambers %td and %td meet at (%.4g, %.4g, %.4g)", k, l, p[0], p[1], p[2]);
     }
-    return PM_OK;
 }
 
 static enum pm_status walls(const struct field *f, struct pm_check *c, struct pm_err *err)
@@ -61,21 +71,13 @@ static enum pm_status walls(const struct field *f, struct pm_check *c, struct pm
     for (ptrdiff_t k = 0; k < ns * ns; k++)
         if (near[k].distance < c->wall.distance)
             c->wall = near[k];
-    if (c->wall.distance < pc->wall_min)
-        PM_TRY(
-            pm_fail(err, PM_INPUT,
-                    "wall between surfaces %d and %d is %.4g at (%.4g, %.4g, %.4g), expected >= %g",
-                    c->wall.a, c->wall.b, c->wall.distance, c->wall.x[0], c->wall.x[1],
-                    c->wall.x[2], pc->wall_min));
     c->cap = INFINITY;
     for (ptrdiff_t i = f->m.first[1]; i < f->m.n; i++) {
-        const double *p = &f->x[3 * i];
-        c->cap = fmin(c->cap, fmin(p[2], pc->height - p[2]));
-        if (c->cap < pc->cap_min)
-            PM_TRY(pm_fail(err, PM_INPUT,
-                           "chamber %d comes within %.4g of an end plane at (%.4g, %.4g, %.4g), "
-                           "expected >= %g",
-                           f->m.surface[i], c->cap, p[0], p[1], p[2], pc->cap_min));
+        const double *p = &f->x[3 * i], gap = fmin(p[2], pc->height - p[2]);
+        if (gap >= c->cap)
+            continue;
+        c->cap = gap;
+        memcpy(c->cap_x, p, sizeof c->cap_x);
     }
 done:
     pm_free(near);
@@ -101,14 +103,11 @@ static enum pm_status maps(const struct field *f, ptrdiff_t k, struct pm_check *
         pm_curvature_at(r_a, r_ab, &g);
         c->coverage = fmin(c->coverage, Z);
         if (Z < 1)
-            PM_TRY(pm_fail(
-                err, PM_INPUT,
-                "surface %td has a hole in its cover at (%.4g, %.4g, %.4g): sum of kernels %.3g, "
-                "expected >= 1",
-                k, p[0], p[1], p[2], Z));
+            fault(c,
+                  "surface %td has a hole in its cover at (%.4g, %.4g, %.4g): sum of kernels %.3g",
+                  k, p[0], p[1], p[2], Z);
         if (!isfinite(g.Q))
-            PM_TRY(pm_fail(err, PM_INPUT, "surface %td folds at (%.4g, %.4g, %.4g)", k, p[0], p[1],
-                           p[2]));
+            fault(c, "surface %td folds at (%.4g, %.4g, %.4g)", k, p[0], p[1], p[2]);
         if (sqrt(g.Q) > c->curvature) {
             c->curvature = sqrt(g.Q);
             memcpy(c->curvature_x, p, sizeof c->curvature_x);
@@ -120,8 +119,8 @@ done:
     return status;
 }
 
-enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *check,
-                                 struct pm_err *err)
+enum pm_status pm_surfaces_measure(const struct pm_surfaces *s, struct pm_check *check,
+                                   struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct field f = {.s = s};
@@ -136,7 +135,7 @@ enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *c
     for (ptrdiff_t k = 0; k < s->ns; k++)
         PM_TRY(maps(&f, k, check, err));
     for (ptrdiff_t k = 1; k < s->ns; k++)
-        PM_TRY(contained(&f, k, err));
+        containment(&f, k, check);
     PM_TRY(walls(&f, check, err));
 done:
     pm_samples_release(&f.m);
@@ -144,4 +143,27 @@ done:
     pm_free(f.x);
     pm_free(f.normal);
     return status;
+}
+
+enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *check,
+                                 struct pm_err *err)
+{
+    enum pm_status status = pm_surfaces_measure(s, check, err);
+    const struct pm_approach *w = &check->wall;
+
+    if (status != PM_OK)
+        return status;
+    if (check->fault[0] != '\0')
+        return pm_fail(err, PM_INPUT, "%s", check->fault);
+    if (w->distance < s->pcase.wall_min)
+        return pm_fail(
+            err, PM_INPUT,
+            "wall between surfaces %d and %d is %.4g at (%.4g, %.4g, %.4g), expected >= %g", w->a,
+            w->b, w->distance, w->x[0], w->x[1], w->x[2], s->pcase.wall_min);
+    if (check->cap < s->pcase.cap_min)
+        return pm_fail(err, PM_INPUT,
+                       "chamber within %.4g of an end plane at (%.4g, %.4g, %.4g), expected >= %g",
+                       check->cap, check->cap_x[0], check->cap_x[1], check->cap_x[2],
+                       s->pcase.cap_min);
+    return PM_OK;
 }

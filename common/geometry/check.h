@@ -5,16 +5,22 @@
 #include "common/geometry/distance.h"
 
 struct pm_check {
-    struct pm_approach wall;      /* closest approach of two distinct surfaces [mm] */
-    double cap;                   /* least distance of a chamber from the planes z = 0 and z = H [mm] */
-    double coverage;              /* least sum of kernels over the samples of the chambers */
-    double curvature;             /* largest sqrt(c1^2 + c2^2) over the samples [1/mm] */
-    double curvature_x[3];        /* where [mm] */
+    char fault[160]; /* first of: a chamber leaves the body or meets another, a hole in the cover
+                        (sum of kernels < 1), a fold; "" if none */
+    struct pm_approach wall; /* closest approach of two distinct surfaces [mm] */
+    double cap;              /* least distance of a chamber from the planes z = 0 and z = H [mm] */
+    double cap_x[3];         /* where [mm] */
+    double coverage;         /* least sum of kernels over the samples of the chambers */
+    double curvature;        /* largest sqrt(c1^2 + c2^2) over the samples [1/mm] */
+    double curvature_x[3];   /* where [mm] */
 };
 
-/* Samples at spacing <= wall_min / 2. Refuses (PM_INPUT, with the position): chambers that leave the body or
- * meet each other, walls thinner than wall_min, caps thinner than cap_min, holes in the cover (sum of kernels
- * < 1), folds of a map. Curvature is only measured. */
-enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *check, struct pm_err *err);
+/* Measures, with samples at spacing <= wall_min / 2. */
+enum pm_status pm_surfaces_measure(const struct pm_surfaces *s, struct pm_check *check,
+                                   struct pm_err *err);
+/* The same, and refuses (PM_INPUT, with the position) a fault, walls thinner than wall_min and caps
+ * thinner than cap_min. */
+enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *check,
+                                 struct pm_err *err);
 
 #endif
