@@ -24,6 +24,13 @@ static const struct pm_item table[] = {
     {"surface step", "/surface%d/nv", I64, "", "1", "B-spline: control points along (sphere map: 0)", 1},
     {"surface step", "/surface%d/tri", I32, "nt%d 3", "1", "triangles of control points, outward", 1},
     {"surface step", "/symmetry/perm", I32, "nops N", "1", "control point i goes to perm under each operation", 1},
+    {"surface", "/reconstruction/kept", I64, "", "1", "1: surfremesh left the surfaces unchanged", 0},
+    {"surface", "/reconstruction/reason", TEXT, "", "1", "why a result was refused, or empty", 0},
+    {"surface", "/reconstruction/spacing_before", D, "ns", "1", "variation of the spacing (exterior: longest over mean)", 0},
+    {"surface", "/reconstruction/spacing_after", D, "ns", "1", "the same afterwards", 0},
+    {"surface", "/reconstruction/distance_mean", D, "ns", "mm", "mean distance of the new surface from the old one", 0},
+    {"surface", "/reconstruction/distance_max", D, "ns", "mm", "largest such distance", 0},
+    {"surface", "/reconstruction/volume_ratio", D, "ns", "1", "new over old enclosed volume", 0},
     {"surface mesh state step", "/tip/reference_point", D, "3", "mm", "reference point of the end-effector", 1},
 
     {"mesh state", "/mesh/x", D, "nn 3", "mm", "reference node positions", 1},
