@@ -14,7 +14,7 @@ const struct pm_solve_options pm_solve_default = {.tolerance = 1e-8,
                                                   .max_newton = 12};
 
 /* Tolerance of load steps on the way: they only have to stay on the path. */
-static const double path_tolerance = 1e-3;
+static const double path_tolerance = 1e-1;
 /* Below this residual the factor at hand serves for further corrections while each gains a factor
  * of 10. */
 static const double chord_residual = 1e-3;
@@ -51,6 +51,7 @@ static double norm_inf(const double *v, ptrdiff_t n)
 static enum outcome refuse(struct solver *s, const char *why, double value)
 {
     snprintf(s->r->why, sizeof s->r->why, "%s %.4g", why, value);
+    pm_log(2, "load %.4f refused: %s", s->r->lambda, s->r->why);
     return REFUSED;
 }
 
@@ -108,6 +109,8 @@ static enum outcome search_line(struct solver *s, struct pm_config *c, double g0
         double rounding = 1e-12 * (fabs(Pi0) + fabs(slope));
         if (s->Pi <= Pi0 + 1e-4 * alpha * slope + rounding || norm_inf(s->g, m->nq) < 0.5 * g0) {
             pm_config_copy(m, &s->trial, c);
+            pm_log(2, "load %.4f: step %.4g, residual %.2e, smallest det F %.3f", s->r->lambda, alpha,
+                   norm_inf(s->g, m->nq) / s->load_norm, s->r->min_det_F);
             return CONVERGED;
         }
     }
@@ -139,14 +142,14 @@ done:
     return status;
 }
 
-/* Newton at the pressures s->p from c. */
-static enum pm_status newton(struct solver *s, struct pm_config *c, double tolerance,
+/* Newton at the pressures s->p from c; mixed: s->pressure holds the pressures for the first tangent. */
+static enum pm_status newton(struct solver *s, struct pm_config *c, double tolerance, int mixed,
                              enum outcome *out, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_model *m = s->m;
     double tol = tolerance * s->load_norm, chord_at = chord_residual * s->load_norm;
-    int definite, mixed = 0;
+    int definite;
     if (!evaluate(s, c)) {
         *out = refuse(s, "inverted element, det F", s->r->min_det_F);
         return PM_OK;
@@ -183,7 +186,8 @@ done:
     return status;
 }
 
-/* One load step from base (load parameter lambda) with the predictor `s->load`: c, or a refusal. */
+/* One load step from base (load parameter lambda) with the predictor `s->load`: c, or a refusal. The linear predictor
+ * leaves volumetric strains whose pressures would spoil the tangent: the linearised ones are right to first order. */
 static enum pm_status load_step(struct solver *s, const struct path *path,
                                 const struct pm_config *base, double lambda, double next,
                                 struct pm_config *c, enum outcome *out, struct pm_err *err)
@@ -191,7 +195,11 @@ static enum pm_status load_step(struct solver *s, const struct path *path,
     set_pressure(s, path, next);
     s->r->lambda = next;
     pm_model_move(s->m, base, s->load, next - lambda, c);
-    return newton(s, c, next < 1.0 ? path_tolerance : s->o->tolerance, out, err);
+    pm_model_expand(s->m, base, s->load, s->nodal);
+    for (ptrdiff_t k = 0; k < 3 * s->m->mesh->nn; k++)
+        s->nodal[k] *= next - lambda;
+    pm_model_pressure(s->m, base, s->nodal, s->pressure);
+    return newton(s, c, next < 1.0 ? path_tolerance : s->o->tolerance, 1, out, err);
 }
 
 /* Predictor at base: K^-1 T^T sum_r (to - from)_r dV_r. The factor at hand serves where it belongs
@@ -221,36 +229,34 @@ done:
     return status;
 }
 
-/* Continuation from the equilibrium c at path->from to path->to. */
-static enum pm_status follow_path(struct solver *s, const struct path *path, int fresh,
-                                  struct pm_config *c, enum outcome *out, struct pm_err *err)
+/* Continuation from the equilibrium c at path->from to path->to. After a refusal the predictor of base still holds. */
+static enum pm_status follow_path(struct solver *s, const struct path *path, int fresh, struct pm_config *c,
+                                  enum outcome *out, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_config base = {0};
     double lambda = 0.0, step = path->first_step;
     PM_TRY(pm_config_new(s->m, &base, err));
     pm_config_copy(s->m, c, &base);
-    while (lambda < 1.0) {
+    PM_TRY(predict(s, path, &base, lambda, fresh, out, err));
+    while (lambda < 1.0 && *out == CONVERGED && step >= s->o->min_step) {
         double next = lambda + step > 1.0 - 0.1 * step ? 1.0 : lambda + step;
         long before = s->r->newton_steps;
-        PM_TRY(predict(s, path, &base, lambda, fresh, out, err));
-        if (*out != CONVERGED)
-            break;
         PM_TRY(load_step(s, path, &base, lambda, next, c, out, err));
-        fresh = *out == CONVERGED && s->r->newton_steps > before;
-        if (*out == CONVERGED) {
-            pm_config_copy(s->m, c, &base);
-            lambda = next;
-            s->r->load_steps++;
-            if (s->r->newton_steps - before <= 3)
-                step *= 1.5;
+        if (*out != CONVERGED) {
+            s->r->backoffs++;
+            step *= 0.5;
+            *out = CONVERGED;
             continue;
         }
-        s->r->backoffs++;
-        step *= 0.5;
-        if (step < s->o->min_step)
-            break;
+        pm_config_copy(s->m, c, &base);
+        lambda = next;
+        s->r->load_steps++;
+        step *= s->r->newton_steps - before <= 3 ? 1.5 : 1.0;
+        if (lambda < 1.0)
+            PM_TRY(predict(s, path, &base, lambda, s->r->newton_steps > before, out, err));
     }
+    *out = lambda < 1.0 ? REFUSED : CONVERGED;
     s->r->lambda = lambda;
 done:
     pm_config_release(&base);
@@ -290,16 +296,18 @@ static enum pm_status finish(struct solver *s, const double *p, struct pm_config
     return status;
 }
 
-/* From a guess at pressures `at`: corrected there, then followed to p. */
-static enum pm_status start_from_guess(struct solver *s, const double *at, const double *p,
+/* From a guess: corrected at its own loads, then followed to p. */
+static enum pm_status start_from_guess(struct solver *s, const struct pm_guess *guess, const double *p,
                                        struct pm_config *c, enum outcome *out, struct pm_err *err)
 {
     enum pm_status status;
-    const struct path path = {at, p, 1.0};
-    int same = memcmp(at, p, (size_t)s->m->mesh->nc * sizeof *p) == 0;
+    const struct path path = {guess->at, p, 1.0};
+    int same = memcmp(guess->at, p, (size_t)s->m->mesh->nc * sizeof *p) == 0;
     set_pressure(s, &path, 0.0);
+    if (guess->pressure != NULL)
+        memcpy(s->pressure, guess->pressure, 4 * (size_t)s->m->mesh->ne * sizeof *s->pressure);
     pm_model_move(s->m, c, s->load, 0.0, c); /* places the end-effector's nodes on this mesh */
-    PM_TRY(newton(s, c, same ? s->o->tolerance : path_tolerance, out, err));
+    PM_TRY(newton(s, c, same ? s->o->tolerance : path_tolerance, guess->pressure != NULL, out, err));
     if (*out == CONVERGED && !same)
         PM_TRY(follow_path(s, &path, s->r->newton_steps > 0, c, out, err));
     s->r->warm = *out == CONVERGED;
@@ -314,7 +322,7 @@ done:
 }
 
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
-                              const double *guess_at, struct pm_config *c, double *volume,
+                              const struct pm_guess *guess, struct pm_config *c, double *volume,
                               double *f, struct pm_solve_report *r, struct pm_err *err)
 {
     enum pm_status status;
@@ -329,8 +337,8 @@ enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct 
     PM_TRY(pm_config_new(m, &undeformed, err));
     PM_TRY(load_at(&s, &undeformed, p, s.load, err));
     s.load_norm = norm_inf(s.load, m->nq);
-    if (guess_at != NULL && s.load_norm > 0.0)
-        PM_TRY(start_from_guess(&s, guess_at, p, c, &out, err));
+    if (guess != NULL && s.load_norm > 0.0)
+        PM_TRY(start_from_guess(&s, guess, p, c, &out, err));
     if (out != CONVERGED) {
         const struct path path = {zero, p, o->first_step};
         pm_config_copy(m, &undeformed, c);

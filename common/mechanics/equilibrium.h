@@ -26,13 +26,18 @@ struct pm_solve_report {
     char why[192]; /* last reason of a back-off */
 };
 
-/* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess_at
- * (nc) [MPa] or NULL: c holds a guess of the equilibrium at those pressures, followed from there to
- * p; a guess that fails is reported and the path restarts. PM_NUMERIC with the load reached and the
- * last reason if there is none. volume (nc) and f (nn x 3): chamber volumes and nodal forces at the
- * solution. */
+/* A guess in c: the loads it belongs to, and the pressures (ne x 4) of its elements or NULL. */
+struct pm_guess {
+    const double *at;       /* (nc) [MPa] */
+    const double *pressure; /* (ne x 4) [MPa] */
+};
+
+/* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess or NULL: c holds a
+ * guess, corrected at its own loads and followed from there to p; one that fails is reported, and the path starts
+ * anew from the undeformed state. PM_NUMERIC with the load reached and the last reason if there is no stable
+ * equilibrium. volume (nc) and f (nn x 3): chamber volumes and nodal forces at the solution. */
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
-                              const double *guess_at, struct pm_config *c, double *volume,
-                              double *f, struct pm_solve_report *r, struct pm_err *err);
+                              const struct pm_guess *guess, struct pm_config *c, double *volume, double *f,
+                              struct pm_solve_report *r, struct pm_err *err);
 
 #endif

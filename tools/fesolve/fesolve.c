@@ -49,29 +49,49 @@ static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
            memcmp(a->tet, b->tet, 10 * (size_t)a->ne * sizeof *a->tet) == 0;
 }
 
-/* Takes the displacements of the guess; *at (nc) its pressures, or NULL where it cannot serve. */
-static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c,
-                                 double *pressure, const double **at, struct pm_err *err)
+/* A guess read from a state file: its loads and element pressures. */
+struct guess {
+    int usable;
+    double *at, *pressure; /* (nc) [MPa]; (ne x 4) [MPa] */
+};
+
+/* Takes displacements, loads and element pressures of the guess into c and g. */
+static enum pm_status take_guess(const struct pm_state *from, struct pm_config *c, struct guess *g, struct pm_err *err)
 {
     enum pm_status status;
-    struct pm_state g = {0};
-    *at = NULL;
-    PM_TRY(pm_state_load(path, 1, &g, err));
-    if (g.failure[0] != '\0') {
-        pm_warn("guess '%s' records a failure: starting from the undeformed state", path);
-    } else if (!same_connectivity(&g.mesh, mesh)) {
-        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed "
-                "state",
-                path);
-    } else {
-        memcpy(c->u, g.u, 3 * (size_t)mesh->nn * sizeof *c->u);
-        memcpy(c->U, g.U, sizeof c->U);
-        for (ptrdiff_t r = 0; r < mesh->nc; r++)
-            pressure[r] = g.pressure[r] * mesh->pcase.mu;
-        *at = pressure;
-    }
+    const struct pm_mesh *mesh = &from->mesh;
+    struct pm_model *m = NULL;
+    double *still = NULL;
+    PM_TRY(pm_model_new(mesh, from->element, &m, err));
+    PM_TRY(PM_NEW(g->at, mesh->nc, err));
+    PM_TRY(PM_NEW(g->pressure, 4 * mesh->ne, err));
+    PM_TRY(PM_NEW(still, 3 * mesh->nn, err));
+    memcpy(c->u, from->u, 3 * (size_t)mesh->nn * sizeof *c->u);
+    memcpy(c->U, from->U, sizeof c->U);
+    pm_model_pressure(m, c, still, g->pressure);
+    for (ptrdiff_t r = 0; r < mesh->nc; r++)
+        g->at[r] = from->pressure[r] * mesh->pcase.mu;
+    g->usable = 1;
 done:
-    pm_state_release(&g);
+    pm_model_free(m);
+    pm_free(still);
+    return status;
+}
+
+static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c, struct guess *g,
+                                 struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_state from = {0};
+    PM_TRY(pm_state_load(path, 1, &from, err));
+    if (from.failure[0] != '\0')
+        pm_warn("guess '%s' records a failure: starting from the undeformed state", path);
+    else if (!same_connectivity(&from.mesh, mesh))
+        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed state", path);
+    else
+        PM_TRY(take_guess(&from, c, g, err));
+done:
+    pm_state_release(&from);
     return status;
 }
 
@@ -102,12 +122,12 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     struct pm_config c = {0};
     struct pm_solve_report r;
     struct pm_solve_options options = pm_solve_default;
-    const double *at = NULL;
+    struct guess g = {0};
     double *p = NULL, *f = NULL, *Jq = NULL, low;
     options.tolerance = o->tolerance;
     PM_TRY(pm_model_new(&s->mesh, o->element, &m, err));
     PM_TRY(pm_config_new(m, &c, err));
-    PM_TRY(PM_NEW(p, 2 * nc, err));
+    PM_TRY(PM_NEW(p, nc, err));
     PM_TRY(PM_NEW(f, 3 * nn, err));
     PM_TRY(PM_NEW(Jq, nc * m->nq, err));
     PM_TRY(PM_NEW(s->J, 6 * nc, err));
@@ -117,8 +137,9 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     for (ptrdiff_t i = 0; i < nc; i++)
         p[i] = s->pressure[i] * m->law.mu;
     if (o->guess != NULL)
-        PM_TRY(load_guess(o->guess, &s->mesh, &c, p + nc, &at, err));
-    PM_TRY(pm_equilibrium(m, p, &options, at, &c, s->volume, f, &r, err));
+        PM_TRY(load_guess(o->guess, &s->mesh, &c, &g, err));
+    PM_TRY(pm_equilibrium(m, p, &options, g.usable ? &(struct pm_guess){g.at, g.pressure} : NULL, &c, s->volume, f, &r,
+                          err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
     reaction(m, &c, f, s->reaction);
     memcpy(s->U, c.U, sizeof s->U);
@@ -146,6 +167,8 @@ done:
     pm_free(p);
     pm_free(f);
     pm_free(Jq);
+    pm_free(g.at);
+    pm_free(g.pressure);
     return status;
 }
 
