@@ -102,17 +102,23 @@ SH_FILES := $(wildcard *.sh .ci/run pipelines/*.sh tests/*.sh tests/*/*.sh)
 .PHONY: lint lint-text format
 lint: deps deps-lint ## clang-format, clang-tidy, cppcheck, shellcheck, mandoc, sizes
 	+@$(MAKE) --no-print-directory lint-text
+TIDY_FLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -DPM_VERSION=0 -I. $(patsubst -I%,-isystem %,$(HDF5_CFLAGS)) -isystem /usr/include/suitesparse
 lint-text:
 	clang-format --dry-run -Werror $(C_FILES)
 	@awk 'FNR == 601 { print FILENAME ": more than 600 lines"; bad = 1 } END { exit bad }' $(C_FILES)
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
-		--suppress=missingIncludeSystem -I. -DPM_VERSION='""' common tools
-	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -n 4 clang-tidy --quiet --extra-arg=-Wno-unknown-warning-option -- 2>/dev/null \
-		-std=c17 -D_POSIX_C_SOURCE=200809L -DPM_VERSION='""' -I. -isystem /usr/include/suitesparse $(patsubst -I%,-isystem %,$(HDF5_CFLAGS))
+		--suppress=missingIncludeSystem -I. -DPM_VERSION=0 common tools
+	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(TIDY_FLAGS) 2>/dev/null' sh
 	shellcheck -x $(SH_FILES)
 	mandoc -Tlint -Wwarning $(wildcard man/*.[1-9])
 format: ## lay out the C files with clang-format
 	clang-format -i $(C_FILES)
+
+# The list of items in the format page is the schema table.
+.PHONY: format-page
+format-page: $B/tests/lib/schema_page ## update the list of items in man/pneumorph-format.5
+	awk '/^\.\\" schema end/ { while (("$<" | getline line) > 0) print line; skip = 0 } !skip; /^\.\\" schema begin/ { skip = 1 }' \
+		man/pneumorph-format.5 > $B/page && cp $B/page man/pneumorph-format.5
 
 .PHONY: install uninstall clean help
 CASES := $(wildcard data/cases/*.ini)
