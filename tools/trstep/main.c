@@ -6,6 +6,7 @@ static const struct pm_option OPTIONS[] = {
     {"previous", 0, "STEP.h5", "the step that proposed these surfaces; none for the first design"},
     {"judge", 0, NULL, "print accept or reject, write nothing"},
     {"history", 0, "STEP.h5", "print the history of a step file as a table, tab separated"},
+    {"verdict", 0, "STEP.h5", "print the verdict of a step file: continue, converged or stalled"},
     {0},
 };
 
@@ -17,6 +18,8 @@ static enum pm_status take(void *opts, const char *name, const char *value, stru
         o->previous = value;
     else if (strcmp(name, "history") == 0)
         o->history = value;
+    else if (strcmp(name, "verdict") == 0)
+        o->verdict = value;
     else
         o->judge = 1;
     return PM_OK;

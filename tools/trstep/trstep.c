@@ -204,45 +204,19 @@ done:
     return status;
 }
 
-static enum pm_status print_history(const char *path, struct pm_err *err)
-{
-    enum pm_status status;
-    struct pm_step s = {0};
-
-    PM_TRY(pm_step_load(path, &s, err));
-    puts("iteration\taccepted\tmeasure\tmerit\tpredicted\tratio\tradius\tworst_curvature\tworst_"
-         "wall\trms_step\treason");
-    for (ptrdiff_t i = 0; i < s.ntrials; i++) {
-        const struct pm_trial *t = &s.trials[i];
-        const int failed = t->measure == 0; /* `-` where a failed design has no value */
-        char measure[32] = "-", merit[32] = "-", ratio[32] = "-";
-        if (!failed) {
-            snprintf(measure, sizeof measure, "%.9g", t->measure);
-            snprintf(merit, sizeof merit, "%.9g", t->merit);
-            snprintf(ratio, sizeof ratio, "%.4g", t->ratio);
-        }
-        printf("%lld\t%lld\t%s\t%s\t%.6g\t%s\t%.4g\t%.3g\t%.3g\t%.4g\t%s\n",
-               (long long)t->iteration, (long long)t->accepted, measure, merit, t->predicted, ratio,
-               t->radius, t->worst_curvature, t->worst_wall, t->rms_step,
-               t->reason[0] != '\0' ? t->reason : "-");
-    }
-done:
-    pm_step_release(&s);
-    return status;
-}
-
 static enum pm_status check_usage(const struct trstep_opts *o, const struct pm_common *c,
                                   struct pm_err *err)
 {
-    if (o->history != NULL &&
-        (c->noperands > 0 || c->output != NULL || o->judge || o->previous != NULL))
-        return pm_fail(err, PM_USAGE, "--history stands alone");
+    const int prints = (o->history != NULL) + (o->verdict != NULL);
+    if (prints > 0 &&
+        (prints > 1 || c->noperands > 0 || c->output != NULL || o->judge || o->previous != NULL))
+        return pm_fail(err, PM_USAGE, "--history and --verdict stand alone");
     if (o->judge && (c->noperands != 2 || c->output != NULL))
         return pm_fail(err, PM_USAGE, "--judge takes SURF.h5 WORK.h5 and no output");
-    if (o->history == NULL && c->noperands < 2)
+    if (prints == 0 && c->noperands < 2)
         return pm_fail(err, PM_USAGE, "got %d operands, expected SURF.h5 WORK.h5 [SENS.h5..]",
                        c->noperands);
-    if (o->history == NULL && !o->judge && c->output == NULL)
+    if (prints == 0 && !o->judge && c->output == NULL)
         return pm_fail(err, PM_USAGE, "no output, expected -o FILE");
     return PM_OK;
 }
@@ -254,10 +228,8 @@ enum pm_status trstep_run(const struct trstep_opts *opts, const struct pm_common
     struct trial t = {.before = NULL};
 
     PM_TRY(check_usage(opts, common, err));
-    if (opts->history != NULL) {
-        PM_TRY(print_history(opts->history, err));
-        goto done;
-    }
+    if (opts->history != NULL || opts->verdict != NULL)
+        return trstep_print(opts, err);
     PM_TRY(load_trial(opts, common->operands, &t, err));
     if (opts->judge)
         puts(t.judgement.accepted ? "accept" : "reject");

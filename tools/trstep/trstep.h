@@ -9,6 +9,7 @@
 struct trstep_opts {
     const char *previous; /* step file that proposed this trial, NULL at the first design */
     const char *history;  /* step file whose history is printed */
+    const char *verdict;  /* step file whose verdict is printed */
     int judge;            /* print accept or reject only */
 };
 
@@ -22,5 +23,8 @@ enum pm_status trstep_run(const struct trstep_opts *opts, const struct pm_common
  * becomes stalled where no step gains merit; then, and where it is not "continue" already, the
  * trial is the accepted design. */
 enum pm_status trstep_propose(struct pm_step *step, struct pm_err *err);
+
+/* Prints the history or the verdict of a step file to stdout. */
+enum pm_status trstep_print(const struct trstep_opts *opts, struct pm_err *err);
 
 #endif

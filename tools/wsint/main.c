@@ -6,6 +6,7 @@ static const struct pm_option OPTIONS[] = {
     {"measure", 0, "NAME", "2T, 3T, 1R2T, 2R, 3R or 3R3T instead of the case's measure"},
     {"form", 0, "FORM", "boundary or volume instead of the case's form"},
     {"sign-from", 0, "WORK.h5", "take the orientation of the first design from this file"},
+    {"points", 0, NULL, "print the Gauss set of CASE.ini, tab separated; write nothing"},
     {"record-failure", 0, NULL, "a failed state gives a work file that says so"},
     {0},
 };
@@ -20,6 +21,8 @@ static enum pm_status take(void *opts, const char *name, const char *value, stru
         o->form = value;
     else if (strcmp(name, "sign-from") == 0)
         o->sign_from = value;
+    else if (strcmp(name, "points") == 0)
+        o->points = 1;
     else
         o->record_failure = 1;
     return PM_OK;
@@ -35,11 +38,12 @@ int main(int argc, char **argv)
     struct wsint_opts opts = {0};
     const struct pm_tool tool = {
         .name = "wsint",
-        .operands = "STATE.h5..",
+        .operands = "STATE.h5.. | CASE.ini",
         .summary = "workspace measure and its derivatives from the equilibria at the Gauss points",
         .options = OPTIONS,
         .min_operands = 1,
         .max_operands = -1,
+        .output_optional = 1,
         .option = take,
         .run = run,
     };

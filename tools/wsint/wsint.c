@@ -164,6 +164,40 @@ static void summarise(const struct pm_work *w)
            w->unit, w->ng, pm_form_name((enum pm_form)w->form), w->min_det, w->max_det, error);
 }
 
+static enum pm_status print_points(const struct wsint_opts *opts, const struct pm_common *common,
+                                   struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_case c = {0};
+    struct pm_load *loads = NULL;
+    ptrdiff_t n;
+    enum pm_form form;
+
+    if (common->noperands != 1 || common->output != NULL)
+        PM_TRY(pm_fail(err, PM_USAGE, "--points takes one case file and no output"));
+    PM_TRY(pm_case_load(common->operands[0], &c, err));
+    form = c.form;
+    if (opts->form != NULL)
+        PM_TRY(pm_form_parse(opts->form, &form, err));
+    if (opts->measure != NULL)
+        PM_TRY(pm_measure_select(&c, opts->measure, err));
+    PM_TRY(pm_load_set(&c, form, &loads, &n, err));
+    printf("point\tmultiplicity\tweight\tface\tsign");
+    for (ptrdiff_t r = 0; r < c.nchambers; r++)
+        printf("\tp%td", r + 1);
+    for (ptrdiff_t g = 0; g < n; g++) {
+        printf("\n%td\t%d\t%.9g\t%d\t%d", g, loads[g].multiplicity, loads[g].weight,
+               loads[g].face + 1, loads[g].sign);
+        for (ptrdiff_t r = 0; r < c.nchambers; r++)
+            printf("\t%.9g", loads[g].p[r]);
+    }
+    putchar('\n');
+done:
+    pm_free(loads);
+    pm_case_release(&c);
+    return status;
+}
+
 enum pm_status wsint_run(const struct wsint_opts *opts, const struct pm_common *common,
                          struct pm_err *err)
 {
@@ -173,6 +207,10 @@ enum pm_status wsint_run(const struct wsint_opts *opts, const struct pm_common *
     struct pm_h5 *f = NULL;
     enum pm_form form;
 
+    if (opts->points)
+        return print_points(opts, common, err);
+    if (common->output == NULL)
+        return pm_fail(err, PM_USAGE, "no output, expected -o FILE");
     PM_TRY(read_states(opts, common, &d, err));
     form = d.pcase.form;
     if (opts->form != NULL)

@@ -13,10 +13,12 @@ struct wsint_opts {
     const char *form;      /* boundary, volume, NULL: of the case */
     const char *sign_from; /* work file that holds sigma, NULL: sign of this value */
     int record_failure;
+    int points; /* print the Gauss set of a case file, write nothing */
 };
 
-/* Reads the states (operands), writes the work file. PM_INPUT if they are not exactly the points of
- * the Gauss set of the chosen form, each once, plus all or none of the other form, of one design.
+/* Reads the states (operands), writes the work file; or prints the Gauss set of a case file.
+ * PM_INPUT if they are not exactly the points of the Gauss set of the chosen form, each once, plus
+ * all or none of the other form, of one design.
  */
 enum pm_status wsint_run(const struct wsint_opts *opts, const struct pm_common *common,
                          struct pm_err *err);

@@ -1,0 +1,83 @@
+# The optimisation loop. One folder per iteration, one file per stage, one target per file:
+#
+#   make -j2 optimize CASE=data/cases/2A0R2T.ini RUN=run/NAME [SIZE=MM] [ITERATIONS=N]
+#   make -j2 it007 RUN=run/NAME            up to one iteration
+#   make -j2 RUN=run/NAME ITER=it007 run/NAME/it007/work.h5    one file of one iteration
+#
+# RUN/case.ini is the case of the run (CASE with the mesh size SIZE). A stopped run goes on where it was: files appear
+# whole or not at all, and nothing is made twice. LAUNCH is put before the heavy stages, for instance
+# LAUNCH='srun -n1 -c1'. pipelines/optimize.sh walks through the iterations and ends at the verdict of trstep.
+
+RUN ?=
+CASE ?=
+SIZE ?=
+ITERATIONS ?=
+ITER ?=
+LAUNCH ?=
+BIN := $(abspath $B)/bin
+OPTIMISERS := $(addprefix $B/bin/,surfgen surfremesh tetmesh fesolve wsint adjsens trstep)
+
+WALK = BIN='$(BIN)' MAKE='$(MAKE)' pipelines/optimize.sh '$(RUN)' '$(CASE)' '$(SIZE)'
+.PHONY: optimize
+optimize: $(OPTIMISERS) ## optimise a design: CASE=data/cases/NAME.ini RUN=run/NAME [SIZE=MM] [ITERATIONS=N] [LAUNCH=..]
+	+@$(WALK) '$(ITERATIONS)'
+
+RUN_TO := $(filter it0% it1% it2% it3% it4% it5% it6% it7% it8% it9%,$(MAKECMDGOALS))
+.PHONY: $(RUN_TO)
+$(RUN_TO): it%: $(OPTIMISERS)
+	+@$(WALK) '$*'
+
+# The rules of iteration ITER; everything of the earlier ones exists.
+ifneq ($(ITER),)
+D := $(RUN)/$(ITER)
+NUMBER := $(shell printf %d $$((10#$(ITER:it%=%))))
+PREV := $(RUN)/it$(shell printf %03d $$((10#$(ITER:it%=%) - 1)))
+setting = $(shell awk -F '[ =]+' '$$1 == "$(1)" { print $$2 }' $(RUN)/case.ini)
+NG := $(shell $(BIN)/wsint --points $(RUN)/case.ini | awk 'NR > 1' | wc -l)
+POINTS := $(shell seq -f %02g 0 $$(($(NG) - 1)))
+STATES := $(POINTS:%=$D/state-%.h5)
+SENSES := $(POINTS:%=$D/sens-%.h5)
+EVERY := $(call setting,remesh_every)
+FIRST := $(filter 0,$(NUMBER))
+REMESH := $(if $(FIRST),,$(filter 0,$(shell echo $$(($(if $(filter-out 0,$(EVERY)),$(NUMBER) % $(EVERY),1))))))
+
+STAGE = pipelines/stage.sh '$(RUN)' '$(ITER)'
+# The last accepted iteration, whose mesh and states are the nearest ones.
+LAST = $(RUN)/$$($(BIN)/trstep --history $(PREV)/step.h5 | awk -F '\t' '$$2 == 1 { a = $$1 } END { printf "it%03d", a }')
+
+$D:
+	@mkdir -p $@
+$D/step.h5: | $D
+
+ifneq ($(FIRST),)
+SURF := $D/surf.h5
+$(SURF): $(RUN)/case.ini | $D
+	@$(STAGE) surfgen $(BIN)/surfgen $< -o $@
+else ifneq ($(REMESH),)
+SURF := $D/surf.h5
+$(SURF): $(PREV)/step.h5 | $D
+	@$(STAGE) surfremesh $(LAUNCH) $(BIN)/surfremesh --or-keep $< -o $@
+else
+SURF := $(PREV)/step.h5
+endif
+
+# A reconstructed surface has new control points: nothing of an earlier mesh fits it.
+PREVIOUS_MESH = $(if $(FIRST)$(REMESH),,--previous $(LAST)/mesh.h5)
+GUESS = $(if $(FIRST)$(REMESH),,--guess $(LAST)/$(@F))
+PREVIOUS_STEP = $(if $(FIRST),,--previous $(PREV)/step.h5)
+SIGN = $(if $(FIRST),,--sign-from $(RUN)/it000/work.h5)
+
+$D/mesh.h5: $(SURF) | $D
+	@$(STAGE) tetmesh $(LAUNCH) $(BIN)/tetmesh --record-failure $(PREVIOUS_MESH) $< -o $@
+$(STATES): $D/state-%.h5: $D/mesh.h5
+	@$(STAGE) 'fesolve $*' $(LAUNCH) $(BIN)/fesolve --record-failure --load $(shell printf %d $$((10#$*))) $(GUESS) $< -o $@
+$D/work.h5: $(STATES)
+	@$(STAGE) wsint $(BIN)/wsint --record-failure $(SIGN) $^ -o $@
+$(SENSES): $D/sens-%.h5: $D/state-%.h5 $D/work.h5
+	@$(STAGE) 'adjsens $*' $(LAUNCH) $(BIN)/adjsens $^ -o $@
+# No adjoint work on a rejected trial: the judgement decides which files the step needs.
+$D/step.h5: $(SURF) $D/work.h5
+	+@if [ "$$($(BIN)/trstep --judge $(SURF) $D/work.h5 $(PREVIOUS_STEP))" = accept ]; then sens='$(SENSES)'; else sens=; fi; \
+	[ -z "$$sens" ] || $(MAKE) --no-print-directory $$sens && \
+	$(STAGE) trstep $(BIN)/trstep $(SURF) $D/work.h5 $$sens $(PREVIOUS_STEP) -o $@
+endif

@@ -1,0 +1,48 @@
+#!/bin/bash
+# optimize.sh RUN CASE SIZE ITERATIONS: walks through the iterations of a run until trstep says converged or stalled, or
+# iteration ITERATIONS is done (default: max_iterations of the case). RUN/history.tsv holds one row per trial.
+set -eu
+run=$1 case=$2 size=$3 last=$4
+
+fail()
+{
+    echo "optimize: $1" >&2
+    exit 2
+}
+
+[ -n "$run" ] || fail 'no run, expected RUN=run/NAME'
+mkdir -p "$run"
+if [ -n "$case" ]; then
+    [ -r "$case" ] || fail "cannot read '$case'"
+    awk -v size="$size" '/^\[/ { section = $0 } section == "[mesh]" && /^size/ && size != "" { $0 = "size = " size } { print }' \
+        "$case" >"$run/case.new"
+    if [ ! -e "$run/case.ini" ]; then
+        mv "$run/case.new" "$run/case.ini"
+    elif cmp -s "$run/case.new" "$run/case.ini"; then
+        rm "$run/case.new"
+    else
+        rm "$run/case.new"
+        fail "'$run' was started with another case or mesh size, expected that of '$run/case.ini'"
+    fi
+fi
+[ -r "$run/case.ini" ] || fail "'$run' has no case, expected CASE=data/cases/NAME.ini"
+"$BIN/wsint" --points "$run/case.ini" >/dev/null || exit
+[ -n "$last" ] || last=$(awk -F '[ =]+' '$1 == "max_iterations" { print $2 }' "$run/case.ini")
+[ -n "$last" ] || fail "'$run/case.ini' has no max_iterations, expected ITERATIONS=N"
+
+for ((n = 0; n <= 10#$last; n++)); do
+    iteration=$(printf 'it%03d' "$n")
+    step=$run/$iteration/step.h5
+    if [ ! -e "$step" ]; then
+        "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$step"
+        "$BIN/trstep" --history "$step" >"$run/history.new"
+        mv "$run/history.new" "$run/history.tsv"
+        awk -F '\t' -v it="$iteration" 'END { printf "%s %s: measure %s, ratio %s, radius %s mm, step %s mm, violations %s %s%s\n",
+            it, $2 ? "accepted" : "rejected", $3, $6, $7, $10, $8, $9, $11 == "-" ? "" : ": " $11 }' "$run/history.tsv" >&2
+    fi
+    verdict=$("$BIN/trstep" --verdict "$step")
+    if [ "$verdict" != continue ]; then
+        echo "$run: $verdict after $iteration" >&2
+        break
+    fi
+done

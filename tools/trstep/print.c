@@ -1,0 +1,38 @@
+#include <stdio.h>
+
+#include "tools/trstep/trstep.h"
+
+/* `-` where a failed design has no value and where there is no reason. */
+static void print_row(const struct pm_trial *t)
+{
+    const int failed = t->measure == 0;
+    char measure[32] = "-", merit[32] = "-", ratio[32] = "-";
+
+    if (!failed) {
+        snprintf(measure, sizeof measure, "%.9g", t->measure);
+        snprintf(merit, sizeof merit, "%.9g", t->merit);
+        snprintf(ratio, sizeof ratio, "%.4g", t->ratio);
+    }
+    printf("%lld\t%lld\t%s\t%s\t%.6g\t%s\t%.4g\t%.3g\t%.3g\t%.4g\t%s\n", (long long)t->iteration,
+           (long long)t->accepted, measure, merit, t->predicted, ratio, t->radius,
+           t->worst_curvature, t->worst_wall, t->rms_step, t->reason[0] != '\0' ? t->reason : "-");
+}
+
+enum pm_status trstep_print(const struct trstep_opts *opts, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_step s = {0};
+
+    PM_TRY(pm_step_load(opts->verdict != NULL ? opts->verdict : opts->history, &s, err));
+    if (opts->verdict != NULL) {
+        puts(s.verdict);
+        goto done;
+    }
+    puts("iteration\taccepted\tmeasure\tmerit\tpredicted\tratio\tradius\tworst_curvature\tworst_"
+         "wall\trms_step\treason");
+    for (ptrdiff_t i = 0; i < s.ntrials; i++)
+        print_row(&s.trials[i]);
+done:
+    pm_step_release(&s);
+    return status;
+}
