@@ -48,7 +48,7 @@ static void containment(const struct field *f, ptrdiff_t k, struct pm_check *c)
 {
     double H = f->s->pcase.height;
 
-    for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i += 16) {
+    for (ptrdiff_t i = f->m.first[k]; i < f->m.first[k + 1]; i += 64) {
         const double *p = &f->x[3 * i];
         if (p[2] <= 0 || p[2] >= H || side(f, 0, p) >= 0)
             fault(c, "chamber %td leaves the body at (%.4g, %.4g, %.4g)", k, p[0], p[1], p[2]);

@@ -111,15 +111,14 @@ struct search {
 static int close_pair(const struct search *q, ptrdiff_t i, ptrdiff_t j, double *distance)
 {
     const double *a = &q->x[3 * i], *b = &q->x[3 * j];
+    int same = q->m->surface[i] == q->m->surface[j];
     double d2 = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
                 (a[2] - b[2]) * (a[2] - b[2]);
 
-    if (!(d2 < q->cutoff * q->cutoff))
+    if ((same && q->geodesic == HUGE_VAL) || !(d2 < q->cutoff * q->cutoff))
         return 0;
     *distance = sqrt(d2);
-    if (q->m->surface[i] != q->m->surface[j])
-        return 1;
-    return isfinite(q->geodesic) && along(q->m, i, j, i < q->tube_end) > q->geodesic;
+    return !same || along(q->m, i, j, i < q->tube_end) > q->geodesic;
 }
 
 static enum pm_status search_cell(const struct search *q, const struct grid *g, ptrdiff_t i,

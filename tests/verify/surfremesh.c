@@ -128,6 +128,59 @@ static void stretched(const struct pm_surfaces *first)
     pm_surfaces_release(&to);
 }
 
+static const char *const ROUND =
+    "[case]\nname = round\n[material]\nlaw = neo-hookean\nmu = 1\n"
+    "[body]\nshape = cylinder\nheight = 60\nradius = 22\naround = 24\nrows = 30\n"
+    "[chamber1]\nshape = capsule\ncenter = 10, 0, 30\nradius = 7\nlength = 50\nspacing = 4\n"
+    "[symmetry]\ngroup = mirror-x mirror-y\n[actuation]\npmax = 0.1\n[workspace]\nmeasure = 2T\n"
+    "[mesh]\nsize = 3\n[constraints]\nwall_min = 2.4\ncurvature_max = 1\ncap_min = 3\n";
+
+/* The rows of a wavy exterior are pushed towards the base: a new parametrisation spreads them
+ * again. */
+static void exterior(void)
+{
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0}, to = {0};
+    const struct surfremesh_opts o = {.alpha = 0.1, .iterations = 20};
+    struct surfremesh_report report = {0};
+    double *phi = NULL;
+
+    if (pm_case_parse(ROUND, "round", &c, &err) != PM_OK || pm_surfgen(&c, &s, &err) != PM_OK ||
+        PM_NEW(phi, 3 * s.offset[s.ns], &err) != PM_OK ||
+        surfremesh_report_init(&report, s.ns, &err) != PM_OK) {
+        ok(0, "%s", err.text);
+        return;
+    }
+    struct pm_surface *f = &s.s[0];
+    for (ptrdiff_t i = 2 * f->nu; i < f->n - 2 * f->nu; i++) {
+        double v = f->Phi[3 * i + 2], wave = 1 + 0.04 * sin(25 * v * v);
+        f->phi[3 * i] *= wave;
+        f->phi[3 * i + 1] *= wave;
+        f->phi[3 * i + 2] = 60 * (v - 1.9 * v * (1 - v) * v);
+    }
+    ok(pm_surfremesh(&s, &o, &to, &report, &err) == PM_OK && !report.kept, "uneven exterior: %s%s",
+       err.text, report.reason);
+    ok(report.spacing_before[0] > 2 && report.spacing_after[0] < 0.75 * report.spacing_before[0],
+       "longest edge over mean %.2f -> %.2f", report.spacing_before[0], report.spacing_after[0]);
+    ok(report.max[0] < 0.3 && report.mean[0] < 0.05, "distance mean %.4f, max %.4f mm",
+       report.mean[0], report.max[0]);
+    if (!report.kept) {
+        ptrdiff_t n = to.s[0].n, nu = to.s[0].nu;
+        pm_surfaces_gather(&to, phi);
+        near_abs("symmetry defect [mm]", pm_symmetry_defect(&to, phi), 0, 0);
+        ok(memcmp(to.s[0].phi, f->phi, 3 * (size_t)nu * sizeof(double)) == 0 &&
+               memcmp(&to.s[0].phi[3 * (n - nu)], &f->phi[3 * (n - nu)],
+                      3 * (size_t)nu * sizeof(double)) == 0,
+           "the rims stay bit for bit");
+    }
+    pm_free(phi);
+    surfremesh_report_release(&report);
+    pm_surfaces_release(&s);
+    pm_surfaces_release(&to);
+    pm_case_release(&c);
+}
+
 int main(void)
 {
     struct pm_err err = {0};
@@ -138,6 +191,7 @@ int main(void)
         return tap_bail("%s", err.text);
     drift(&first);
     stretched(&first);
+    exterior();
     pm_surfaces_release(&first);
     pm_case_release(&c);
     return tap_done();

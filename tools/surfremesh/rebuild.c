@@ -10,7 +10,7 @@
 #include "tools/surfremesh/chamber.h"
 #include "tools/surfremesh/exterior.h"
 
-static const double CV_MAX = 0.25, SPACING_OFF = 0.15, UNEVEN_MAX = 2.5;
+static const double CV_MAX = 0.25, SPACING_OFF = 0.15, UNEVEN_MAX = 2.0;
 
 static enum pm_status plan_chamber(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
 {

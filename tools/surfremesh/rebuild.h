@@ -15,7 +15,7 @@ struct rebuild {
 };
 
 /* Which surfaces need it: spacing of a chamber varies by more than 0.25 or its mean is off the
- * wanted one by more than 15 %, the longest edge of the exterior is above 2.5 times the mean; all
+ * wanted one by more than 15 %, the longest edge of the exterior is above 2 times the mean; all
  * chambers if the options name a spacing or a count. */
 enum pm_status rebuild_plan(struct rebuild *r, struct pm_err *err);
 /* The new surfaces, fitted and symmetric. */
