@@ -163,6 +163,19 @@ done:
     return status;
 }
 
+/* A size far too small for the surface would fill the memory: about 2 A / (sqrt 3 h^2) nodes. */
+static enum pm_status check_size(const struct pm_edit *m, int surface, double size,
+                                 struct pm_err *err)
+{
+    const double area = pm_edit_area(m), nodes = 2 * area / (sqrt(3) * size * size);
+    if (nodes <= 2e5)
+        return PM_OK;
+    return pm_fail(
+        err, PM_INPUT,
+        "surface %d: edges of %g mm need about %.1e nodes on %.3g mm2, expected 2e5 at most",
+        surface, size, nodes, area);
+}
+
 enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,
                          struct pm_patch *p, struct pm_err *err)
 {
@@ -172,14 +185,17 @@ enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct p
     *p = (struct pm_patch){0};
     PM_TRY(pm_map_new(s, &map, err));
     PM_TRY(pm_edit_init(&m, s, map, surface, err));
+    PM_TRY(check_size(&m, surface, o->size, err));
     for (int j = 0; j < 3; j++)
         if (o->mirror[j])
             PM_TRY(pm_edit_halve(&m, j, err));
     for (int sweep = 0; sweep < o->sweeps; sweep++) {
         ptrdiff_t count = 1;
         PM_TRY(set_sizes(&m, o, err));
-        for (int pass = 0; pass < 8 && count > 0; pass++)
+        for (int pass = 0; pass < 20 && count > 0; pass++) {
             PM_TRY(pm_edit_split(&m, &count, err));
+            pm_edit_flip(&m);
+        }
         pm_edit_collapse(&m);
         pm_edit_flip(&m);
         for (ptrdiff_t a = 0; a < m.nn; a++)

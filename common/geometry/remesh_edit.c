@@ -67,6 +67,26 @@ static double facet_of(const struct pm_edit *m, ptrdiff_t t)
     return facet(m, v[0], v[1], v[2]);
 }
 
+double pm_edit_area(const struct pm_edit *m)
+{
+    double sum = 0;
+    for (ptrdiff_t t = 0; t < m->nt; t++) {
+        const int32_t *v = m->tri + 3 * t;
+        if (v[0] < 0)
+            continue;
+        const double *p = m->x + 3 * v[0], *q = m->x + 3 * v[1], *r = m->x + 3 * v[2];
+        double u[3], w[3];
+        for (int i = 0; i < 3; i++) {
+            u[i] = q[i] - p[i];
+            w[i] = r[i] - p[i];
+        }
+        const double n[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
+                             u[0] * w[1] - u[1] * w[0]};
+        sum += sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+    }
+    return sum;
+}
+
 double pm_edit_worst(const struct pm_edit *m, ptrdiff_t a)
 {
     double worst = 1;
@@ -315,16 +335,23 @@ enum pm_status pm_edit_split(struct pm_edit *m, ptrdiff_t *count, struct pm_err 
 {
     enum pm_status status = PM_OK;
     *count = 0;
-    for (ptrdiff_t t = 0; t < m->nt; t++) {
-        for (int k = 0; k < 3; k++) {
-            if (m->tri[3 * t] < 0)
-                continue;
-            const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
-            int done_it = 0;
-            if (length(m, a, b) > split_ratio * wanted(m, a, b))
-                PM_TRY(pm_edit_split_edge(m, a, b, NULL, &done_it, err));
-            *count += done_it;
+    const ptrdiff_t nt = m->nt; /* new triangles wait for the flips between two passes */
+    for (ptrdiff_t t = 0; t < nt; t++) {
+        ptrdiff_t a = -1, b = -1;
+        double longest = split_ratio;
+        for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
+            const ptrdiff_t p = m->tri[3 * t + k], q = m->tri[3 * t + (k + 1) % 3];
+            const double ratio = length(m, p, q) / wanted(m, p, q);
+            if (ratio > longest) {
+                longest = ratio;
+                a = p;
+                b = q;
+            }
         }
+        int done_it = 0;
+        if (a >= 0)
+            PM_TRY(pm_edit_split_edge(m, a, b, NULL, &done_it, err));
+        *count += done_it;
     }
 done:
     return status;

@@ -38,7 +38,8 @@ void pm_edit_remove(struct pm_edit *m, ptrdiff_t t);
 /* Sphere: cuts along the plane S_axis = 0 and keeps S_axis >= 0; nodes on the plane get rim bit 1
  * << axis. */
 enum pm_status pm_edit_halve(struct pm_edit *m, int axis, struct pm_err *err);
-/* Splits every edge longer than 4/3 of the wanted length; *count edges. */
+/* Splits the longest edge of every triangle that has one longer than 4/3 of the wanted length;
+ * *count edges. */
 enum pm_status pm_edit_split(struct pm_edit *m, ptrdiff_t *count, struct pm_err *err);
 /* Collapses edges shorter than 4/5 of the wanted length where topology, orientation, normals and
  * the lengths of the new edges allow; returns their number. */
@@ -48,6 +49,8 @@ ptrdiff_t pm_edit_flip(struct pm_edit *m);
 /* Smallest over the triangles around a of (unit normal of the facet) . (mean surface normal of its
  * nodes), -1 where one is folded in the parameter. */
 double pm_edit_worst(const struct pm_edit *m, ptrdiff_t a);
+/* Area of all triangles [mm2]. */
+double pm_edit_area(const struct pm_edit *m);
 /* Drops what was removed and hands the arrays over. */
 enum pm_status pm_edit_finish(struct pm_edit *m, struct pm_patch *p, struct pm_err *err);
 

@@ -194,9 +194,11 @@ static enum pm_status check_crossing(const struct pm_shell *s, struct pm_err *er
     pm_shell_name(high, a);
     pm_shell_name(low, b);
     if (high == low)
-        return pm_fail(err, PM_INPUT, "%s cuts itself at (%.3f, %.3f, %.3f) mm", a, c.at[0],
-                       c.at[1], c.at[2]);
-    return pm_fail(err, PM_INPUT, "%s%s cuts %s at (%.3f, %.3f, %.3f) mm", a,
+        return pm_fail(err, PM_INPUT,
+                       "%s cuts itself at (%.3f, %.3f, %.3f) mm, meshed with edges of %.3g mm", a,
+                       c.at[0], c.at[1], c.at[2], s->size[s->tri[3 * c.a]]);
+    return pm_fail(err, PM_INPUT,
+                   "%s%s cuts %s at (%.3f, %.3f, %.3f) mm, meshed with edges of %.3g mm", a,
                    high > 0 && low <= 0 ? " is partly outside the body: it" : "", b, c.at[0],
                    c.at[1], c.at[2]);
 }
