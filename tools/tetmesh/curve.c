@@ -10,7 +10,7 @@
 #include "tools/tetmesh/quality.h"
 #include "tools/tetmesh/weights.h"
 
-const double pm_curve_bound = 0.1;
+const double pm_curve_bound = 0.2;
 static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 
 struct curving {

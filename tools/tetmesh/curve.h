@@ -13,7 +13,7 @@ struct pm_curve_report {
     int sweeps;
 };
 
-/* Smallest scaled Jacobian (quality.h) that is accepted. */
+/* Smallest scaled Jacobian (quality.h) of a new mesh. */
 extern const double pm_curve_bound;
 
 /* Fills m (all but the case and the reference point). The mid-side node of a surface edge (a, b) is

@@ -200,7 +200,7 @@ static enum pm_status check_crossing(const struct pm_shell *s, struct pm_err *er
     return pm_fail(err, PM_INPUT,
                    "%s%s cuts %s at (%.3f, %.3f, %.3f) mm, meshed with edges of %.3g mm", a,
                    high > 0 && low <= 0 ? " is partly outside the body: it" : "", b, c.at[0],
-                   c.at[1], c.at[2]);
+                   c.at[1], c.at[2], s->size[s->tri[3 * c.a]]);
 }
 
 /* Nothing crosses any more, so one node of a chamber decides. */

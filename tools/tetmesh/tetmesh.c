@@ -12,9 +12,9 @@
 #include "tools/tetmesh/volume_gmsh.h"
 #include "tools/tetmesh/weights.h"
 
-/* A morphed mesh must keep this mean ratio in its straight tetrahedra (fresh ones have 0.3 or
- * more). */
-static const double min_mean_ratio = 0.1;
+/* What a morphed mesh must keep: half of the smallest scaled Jacobian of a new one, and a mean
+ * ratio of the straight tetrahedra (0.3 or more in new ones). */
+static const double min_scaled = 0.1, min_mean_ratio = 0.1;
 
 static enum pm_status generate(const struct pm_surfaces *s, double size, double timeout,
                                struct pm_mesh *m, struct pm_err *err)
@@ -65,7 +65,7 @@ static enum pm_status morph(const struct pm_surfaces *s, struct pm_mesh *m, int 
     pm_curve_quality(m, m->x, &scaled, &mean_ratio);
     m->min_jacobian = scaled;
     m->origin = PM_ORIGIN_MORPHED;
-    *good = scaled >= pm_curve_bound && mean_ratio >= min_mean_ratio;
+    *good = scaled >= min_scaled && mean_ratio >= min_mean_ratio;
     pm_log(*good ? 1 : 0, "previous mesh %s: scaled Jacobian %.3f, mean ratio %.3f",
            *good ? "morphed" : "given up", scaled, mean_ratio);
 done:
