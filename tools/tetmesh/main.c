@@ -8,6 +8,14 @@ static const struct pm_option options[] = {
     {"record-failure", 'r', NULL,
      "where the surfaces cannot be meshed, write a mesh file that says why"},
     {"timeout", 't', "S", "give up a run of the mesher after this many seconds"},
+    {"import", 'i', "FILE.msh", "take this gmsh file instead of surfaces"},
+    {"promote", 0, NULL, "import: raise 4-node tetrahedra to 10 nodes with straight edges"},
+    {"reference", 0, "X,Y,Z",
+     "import: reference point of the end-effector (default: centroid of the tip)"},
+    {"case", 0, "CASE.ini", "import: case with the material"},
+    {"mu", 0, "MPA", "import: small-strain shear modulus, instead of --case"},
+    {"kappa", 0, "MPA", "import: bulk modulus (default: 100 mu)"},
+    {"law", 0, "NAME", "import: material law (default: neo-hookean)"},
     {0}};
 
 static enum pm_status positive(const char *name, const char *value, double *out, struct pm_err *err)
@@ -18,18 +26,46 @@ static enum pm_status positive(const char *name, const char *value, double *out,
     return status;
 }
 
+static enum pm_status reference(const char *name, const char *value, struct tetmesh_opts *o,
+                                struct pm_err *err)
+{
+    const enum pm_status status =
+        pm_parse_doubles(name, value, 3, o->reference, &o->have_reference, err);
+    if (status == PM_OK && o->have_reference != 3)
+        return pm_fail(err, PM_USAGE, "option --%s: found '%s', expected X,Y,Z", name, value);
+    return status;
+}
+
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
 {
     struct tetmesh_opts *o = data;
-    if (strcmp(name, "size") == 0)
-        return positive(name, value, &o->size, err);
-    if (strcmp(name, "timeout") == 0)
-        return positive(name, value, &o->timeout, err);
-    if (strcmp(name, "previous") == 0)
-        o->previous = value;
-    else
-        o->record_failure = 1;
-    return PM_OK;
+    const struct {
+        const char *name;
+        double *number;
+        const char **text;
+        int *flag;
+    } simple[] = {{"size", &o->size, NULL, NULL},
+                  {"timeout", &o->timeout, NULL, NULL},
+                  {"mu", &o->mu, NULL, NULL},
+                  {"kappa", &o->kappa, NULL, NULL},
+                  {"previous", NULL, &o->previous, NULL},
+                  {"import", NULL, &o->import, NULL},
+                  {"case", NULL, &o->case_file, NULL},
+                  {"law", NULL, &o->law, NULL},
+                  {"promote", NULL, NULL, &o->promote},
+                  {"record-failure", NULL, NULL, &o->record_failure}};
+    for (size_t k = 0; k < sizeof simple / sizeof simple[0]; k++) {
+        if (strcmp(name, simple[k].name) != 0)
+            continue;
+        if (simple[k].number != NULL)
+            return positive(name, value, simple[k].number, err);
+        if (simple[k].text != NULL)
+            *simple[k].text = value;
+        else
+            *simple[k].flag = 1;
+        return PM_OK;
+    }
+    return reference(name, value, o, err);
 }
 
 static enum pm_status run(void *data, const struct pm_common *common, struct pm_err *err)
@@ -41,10 +77,10 @@ int main(int argc, char **argv)
 {
     static const struct pm_tool tool = {
         .name = "tetmesh",
-        .operands = "SURF.h5",
+        .operands = "[SURF.h5]",
         .summary = "volume mesh of curved 10-node tetrahedra between the surfaces",
         .options = options,
-        .min_operands = 1,
+        .min_operands = 0,
         .max_operands = 1,
         .option = option,
         .run = run};

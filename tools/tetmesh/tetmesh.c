@@ -7,6 +7,7 @@
 #include "common/base/memory.h"
 #include "common/mechanics/extension.h"
 #include "tools/tetmesh/curve.h"
+#include "tools/tetmesh/import_msh.h"
 #include "tools/tetmesh/shell.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/volume_gmsh.h"
@@ -118,19 +119,83 @@ done:
     return status;
 }
 
+/* The case of an imported mesh: the file given, or a material alone. */
+static enum pm_status import_case(const struct tetmesh_opts *o, struct pm_case *c,
+                                  struct pm_err *err)
+{
+    char text[256], kappa[64] = "";
+    if (o->case_file != NULL)
+        return pm_case_load(o->case_file, c, err);
+    if (o->kappa > 0)
+        snprintf(kappa, sizeof kappa, "kappa = %.17g\n", o->kappa);
+    snprintf(text, sizeof text, "[case]\nname = imported\n[material]\nlaw = %.32s\nmu = %.17g\n%s",
+             o->law != NULL ? o->law : "neo-hookean", o->mu, kappa);
+    return pm_case_parse(text, "--law, --mu, --kappa", c, err);
+}
+
+static enum pm_status import(const struct tetmesh_opts *o, struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    PM_TRY(pm_import_msh(o->import, o->promote, m, err));
+    PM_TRY(import_case(o, &m->pcase, err));
+    if (m->pcase.nchambers > 0 && m->pcase.nchambers != m->nc)
+        PM_TRY(pm_fail(err, PM_INPUT, "cannot use '%s': it has %td chambers, case '%s' has %td",
+                       o->import, m->nc, o->case_file, m->pcase.nchambers));
+    if (o->have_reference)
+        memcpy(m->reference_point, o->reference, sizeof m->reference_point);
+done:
+    return status;
+}
+
+static enum pm_status mesh_surfaces(const struct tetmesh_opts *o, const char *path,
+                                    struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_surfaces s = {0};
+    PM_TRY(pm_surfaces_load(path, &s, err));
+    PM_TRY(make(o, &s, m, err));
+    pm_case_release(&m->pcase);
+    PM_TRY(pm_case_copy(&s.pcase, &m->pcase, err));
+    memcpy(m->reference_point, s.reference_point, sizeof m->reference_point);
+done:
+    pm_surfaces_release(&s);
+    return status;
+}
+
+enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_common *common,
+                             struct pm_err *err)
+{
+    if ((o->import != NULL) == (common->noperands == 1))
+        return pm_fail(err, PM_USAGE, "expected either SURF.h5 or --import FILE.msh");
+    if (o->import != NULL &&
+        (o->size > 0 || o->timeout > 0 || o->previous != NULL || o->record_failure))
+        return pm_fail(
+            err, PM_USAGE,
+            "--size, --timeout, --previous and --record-failure do not go with --import");
+    if (o->import == NULL && (o->promote || o->have_reference || o->case_file != NULL ||
+                              o->law != NULL || o->mu > 0 || o->kappa > 0))
+        return pm_fail(err, PM_USAGE,
+                       "--promote, --reference, --case, --law, --mu and --kappa need --import");
+    if (o->import != NULL && (o->case_file != NULL) == (o->mu > 0))
+        return pm_fail(err, PM_USAGE, "--import needs either --mu or --case");
+    if (o->case_file != NULL && (o->law != NULL || o->kappa > 0))
+        return pm_fail(err, PM_USAGE, "--law and --kappa do not go with --case");
+    return PM_OK;
+}
+
 enum pm_status tetmesh_run(const struct tetmesh_opts *o, const struct pm_common *common,
                            struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_surfaces s = {0};
-    struct pm_mesh m = {0};
+    struct pm_mesh m = {.nn = 0};
     struct pm_h5 *out = NULL;
-    const char *const extra[] = {o->previous, NULL};
-    PM_TRY(pm_surfaces_load(common->operands[0], &s, err));
-    PM_TRY(make(o, &s, &m, err));
-    pm_case_release(&m.pcase);
-    PM_TRY(pm_case_copy(&s.pcase, &m.pcase, err));
-    memcpy(m.reference_point, s.reference_point, sizeof m.reference_point);
+    /* whichever of them are given */
+    const char *const extra[] = {o->import != NULL ? o->import : o->previous, o->case_file, NULL};
+    PM_TRY(tetmesh_check(o, common, err));
+    if (o->import != NULL)
+        PM_TRY(import(o, &m, err));
+    else
+        PM_TRY(mesh_surfaces(o, common->operands[0], &m, err));
     if (m.failure[0] == '\0')
         pm_log(1, "%td nodes, %td tetrahedra, %td unknowns, smallest scaled Jacobian %.3f", m.nn,
                m.ne, 3 * m.nn, m.min_jacobian);
@@ -141,6 +206,5 @@ enum pm_status tetmesh_run(const struct tetmesh_opts *o, const struct pm_common 
 done:
     pm_h5_close(out);
     pm_mesh_release(&m);
-    pm_surfaces_release(&s);
     return status;
 }

@@ -10,8 +10,19 @@ struct tetmesh_opts {
     double timeout;       /* [s], 0: none */
     const char *previous; /* mesh to morph, or NULL */
     int record_failure;
+    /* instead of surfaces: */
+    const char *import;    /* gmsh file, or NULL */
+    int promote;           /* raise 4-node tetrahedra to 10 nodes */
+    const char *case_file; /* case of an imported mesh, or NULL: a material */
+    const char *law;       /* of that material, NULL: neo-hookean */
+    double mu, kappa;      /* [MPa], 0: not given */
+    int have_reference;
+    double reference[3]; /* [mm] */
 };
 
+/* Refuses (PM_USAGE) options that do not go together. */
+enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_common *common,
+                             struct pm_err *err);
 enum pm_status tetmesh_run(const struct tetmesh_opts *o, const struct pm_common *common,
                            struct pm_err *err);
 

@@ -1,6 +1,7 @@
 /* The only user of gmshc.h. */
 #include "tools/tetmesh/volume_gmsh.h"
 
+#include <errno.h>
 #include <gmshc.h>
 #include <math.h>
 #include <stdio.h>
@@ -10,7 +11,14 @@
 #include "common/base/memory.h"
 #include "tools/tetmesh/isolate.h"
 
-enum { GMSH_TRIANGLE = 2, GMSH_TETRAHEDRON = 4, ALGORITHM_DELAUNAY = 1, ALGORITHM_HXT = 10 };
+enum {
+    GMSH_TRIANGLE = 2,
+    GMSH_TRIANGLE_6 = 9,
+    GMSH_TETRAHEDRON = 4,
+    GMSH_TETRAHEDRON_10 = 11,
+    ALGORITHM_DELAUNAY = 1,
+    ALGORITHM_HXT = 10
+};
 
 /* gmsh's last message as our failure. */
 static enum pm_status translate(const char *what, struct pm_err *err)
@@ -279,5 +287,269 @@ enum pm_status pm_gmsh_volume(const struct pm_gmsh_input *in, double timeout, st
              b[2].bytes > 0 ? (const char *)b[2].data : "");
     b[0].data = b[1].data = NULL;
     pm_blobs_release(b);
+    return status;
+}
+
+/* Growing list of node numbers and group numbers. */
+struct list {
+    int64_t *v;
+    ptrdiff_t n, capacity;
+};
+
+static enum pm_status append(struct list *l, const size_t *from, size_t n, struct pm_err *err)
+{
+    if (l->n + (ptrdiff_t)n > l->capacity) {
+        const ptrdiff_t capacity = 2 * (l->n + (ptrdiff_t)n);
+        int64_t *v = pm_realloc(l->v, capacity, sizeof *v, err);
+        if (v == NULL)
+            return PM_SYSTEM;
+        l->v = v;
+        l->capacity = capacity;
+    }
+    for (size_t k = 0; k < n; k++)
+        l->v[l->n++] = (int64_t)from[k];
+    return PM_OK;
+}
+
+struct reading {
+    struct list tet, tri, group;
+    struct list used; /* surface entities already taken */
+    int corners;
+    int32_t ng;
+    char (*name)[PM_GROUP_NAME];
+};
+
+static enum pm_status take_volume(struct reading *r, const int *type, size_t ntypes,
+                                  size_t *const *node, const size_t *n, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    for (size_t k = 0; k < ntypes; k++) {
+        const int corners = type[k] == GMSH_TETRAHEDRON      ? 4
+                            : type[k] == GMSH_TETRAHEDRON_10 ? 10
+                                                             : 0;
+        if (corners == 0 || (r->corners != 0 && r->corners != corners))
+            PM_TRY(pm_fail(
+                err, PM_INPUT,
+                "group 'body' holds elements of gmsh type %d%s, expected only 4-node (type 4) "
+                "or only 10-node (type 11) tetrahedra",
+                type[k], corners == 0 ? "" : " beside others"));
+        r->corners = corners;
+        PM_TRY(append(&r->tet, node[k], n[k], err));
+    }
+done:
+    return status;
+}
+
+static enum pm_status take_surface(struct reading *r, const int *type, size_t ntypes,
+                                   size_t *const *node, const size_t *n, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const size_t group = (size_t)r->ng;
+    for (size_t k = 0; k < ntypes; k++) {
+        const size_t corners = type[k] == GMSH_TRIANGLE ? 3 : type[k] == GMSH_TRIANGLE_6 ? 6 : 0;
+        if (corners == 0)
+            PM_TRY(pm_fail(err, PM_INPUT,
+                           "group '%s' holds elements of gmsh type %d, expected triangles",
+                           r->name[r->ng], type[k]));
+        for (size_t t = 0; t < n[k] / corners; t++) {
+            PM_TRY(append(&r->tri, node[k] + corners * t, 3, err));
+            PM_TRY(append(&r->group, &group, 1, err));
+        }
+    }
+done:
+    return status;
+}
+
+static enum pm_status take_entity(struct reading *r, int dim, int entity, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    int *type = NULL;
+    size_t ntypes = 0, **element = NULL, *ne = NULL, nne = 0, **node = NULL, *n = NULL, nn = 0;
+    GMSH(gmshModelMeshGetElements(&type, &ntypes, &element, &ne, &nne, &node, &n, &nn, dim, entity,
+                                  &ierr),
+         "elements");
+    if (dim == 3)
+        PM_TRY(take_volume(r, type, ntypes, node, n, err));
+    else
+        PM_TRY(take_surface(r, type, ntypes, node, n, err));
+done:
+    gmshFree(type);
+    for (size_t k = 0; k < nne; k++)
+        gmshFree(element[k]);
+    for (size_t k = 0; k < nn; k++)
+        gmshFree(node[k]);
+    gmshFree(element);
+    gmshFree(ne);
+    gmshFree(node);
+    gmshFree(n);
+    return status;
+}
+
+/* The elements of one physical group; groups without a name and volumes that are not `body` are
+ * passed over. */
+static enum pm_status take_group(struct reading *r, int dim, int tag, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    char *name = NULL;
+    int *entity = NULL;
+    size_t n = 0;
+    GMSH(gmshModelGetPhysicalName(dim, tag, &name, &ierr), "group");
+    if (name == NULL || name[0] == '\0' || dim < 2 || (dim == 3 && strcmp(name, "body") != 0))
+        goto done;
+    if (dim == 2)
+        snprintf(r->name[r->ng], PM_GROUP_NAME, "%s", name);
+    GMSH(gmshModelGetEntitiesForPhysicalGroup(dim, tag, &entity, &n, &ierr), "group");
+    for (size_t k = 0; k < n; k++) {
+        for (ptrdiff_t j = 0; j < r->used.n && dim == 2; j++)
+            if (r->used.v[j] == entity[k])
+                PM_TRY(pm_fail(err, PM_INPUT, "group '%s' shares surface %d with another group",
+                               name, entity[k]));
+        PM_TRY(take_entity(r, dim, entity[k], err));
+        const size_t used = (size_t)entity[k];
+        if (dim == 2)
+            PM_TRY(append(&r->used, &used, 1, err));
+    }
+    r->ng += dim == 2;
+done:
+    gmshFree(name);
+    gmshFree(entity);
+    return status;
+}
+
+static int by_value(const void *a, const void *b)
+{
+    const int64_t p = *(const int64_t *)a, q = *(const int64_t *)b;
+    return (p > q) - (p < q);
+}
+
+/* Node numbers -> places in the ascending list of all nodes. */
+static enum pm_status number(const struct list *l, const int64_t *tag, size_t n,
+                             struct pm_blob *out, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    PM_TRY(blob(out, l->n, sizeof(int32_t), err));
+    for (ptrdiff_t k = 0; k < l->n; k++) {
+        const int64_t *found = bsearch(&l->v[k], tag, n, sizeof *tag, by_value);
+        if (found == NULL)
+            PM_TRY(pm_fail(err, PM_INPUT, "an element refers to node %lld, which does not exist",
+                           (long long)l->v[k]));
+        ((int32_t *)out->data)[k] = (int32_t)(found - tag);
+    }
+done:
+    return status;
+}
+
+/* out[0] node numbers, ascending, out[1] their positions. */
+static enum pm_status read_nodes(struct pm_blob *out, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    size_t *tag = NULL, n = 0, nx = 0, np = 0;
+    double *x = NULL, *param = NULL;
+    GMSH(gmshModelMeshGetNodes(&tag, &n, &x, &nx, &param, &np, -1, -1, 0, 0, &ierr), "nodes");
+    PM_TRY(blob(&out[0], (ptrdiff_t)n, sizeof(int64_t), err));
+    PM_TRY(blob(&out[1], (ptrdiff_t)nx, sizeof(double), err));
+    int64_t *sorted = out[0].data;
+    for (size_t k = 0; k < n; k++)
+        sorted[k] = (int64_t)tag[k];
+    qsort(sorted, n, sizeof *sorted, by_value);
+    for (size_t k = 1; k < n; k++)
+        if (sorted[k] == sorted[k - 1])
+            PM_TRY(pm_fail(err, PM_INPUT, "node number %lld occurs twice", (long long)sorted[k]));
+    for (size_t k = 0; k < n; k++) {
+        const int64_t t = (int64_t)tag[k];
+        const int64_t *at = bsearch(&t, sorted, n, sizeof *sorted, by_value);
+        memcpy((double *)out[1].data + 3 * (at - sorted), x + 3 * k, 3 * sizeof *x);
+    }
+done:
+    gmshFree(tag);
+    gmshFree(x);
+    gmshFree(param);
+    return status;
+}
+
+static enum pm_status read_job(const void *arg, struct pm_blob *out, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct reading r = {.corners = 0};
+    int *group = NULL;
+    size_t n = 0;
+    PM_TRY(start(err));
+    GMSH(gmshOpen(arg, &ierr), "not a mesh");
+    GMSH(gmshModelGetPhysicalGroups(&group, &n, -1, &ierr), "groups");
+    PM_TRY(blob(&out[5], (ptrdiff_t)n + 1, PM_GROUP_NAME, err));
+    r.name = out[5].data;
+    for (size_t k = 0; k + 1 < n; k += 2)
+        PM_TRY(take_group(&r, group[k], group[k + 1], err));
+    if (r.corners == 0)
+        PM_TRY(pm_fail(err, PM_INPUT, "there is no physical group 'body' with tetrahedra"));
+    out[5].bytes = r.ng * (ptrdiff_t)PM_GROUP_NAME;
+    PM_TRY(read_nodes(out, err));
+    const size_t nn = (size_t)out[0].bytes / sizeof(int64_t);
+    PM_TRY(number(&r.tet, out[0].data, nn, &out[2], err));
+    PM_TRY(number(&r.tri, out[0].data, nn, &out[3], err));
+    PM_TRY(blob(&out[4], r.group.n, sizeof(int32_t), err));
+    for (ptrdiff_t k = 0; k < r.group.n; k++)
+        ((int32_t *)out[4].data)[k] = (int32_t)r.group.v[k];
+    PM_TRY(blob(&out[6], 1, sizeof r.corners, err));
+    memcpy(out[6].data, &r.corners, sizeof r.corners);
+done:
+    gmshFree(group);
+    pm_free(r.tet.v);
+    pm_free(r.tri.v);
+    pm_free(r.group.v);
+    pm_free(r.used.v);
+    return status;
+}
+
+void pm_msh_release(struct pm_msh *m)
+{
+    pm_free(m->tag);
+    pm_free(m->x);
+    pm_free(m->tet);
+    pm_free(m->tri);
+    pm_free(m->group);
+    pm_free(m->name);
+    *m = (struct pm_msh){0};
+}
+
+/* gmsh runs other files as scripts: only a mesh may pass. */
+static enum pm_status check_header(const char *path, struct pm_err *err)
+{
+    char head[16] = "";
+    FILE *f = fopen(path, "rb");
+    if (f == NULL)
+        return pm_fail(err, PM_INPUT, "%s", strerror(errno));
+    const size_t n = fread(head, 1, sizeof head - 1, f);
+    fclose(f);
+    if (n < 11 || strncmp(head, "$MeshFormat", 11) != 0)
+        return pm_fail(err, PM_INPUT, "it does not begin with $MeshFormat");
+    return PM_OK;
+}
+
+enum pm_status pm_gmsh_read(const char *path, struct pm_msh *out, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_blob b[PM_MAX_BLOBS] = {{0}};
+    *out = (struct pm_msh){0};
+    PM_TRY(check_header(path, err));
+    PM_TRY(pm_isolate(read_job, path, 0, b, err));
+    memcpy(&out->corners, b[6].data, sizeof out->corners);
+    out->nn = b[0].bytes / (ptrdiff_t)sizeof(int64_t);
+    out->ne = b[2].bytes / (ptrdiff_t)sizeof(int32_t) / out->corners;
+    out->nt = b[4].bytes / (ptrdiff_t)sizeof(int32_t);
+    out->ng = b[5].bytes / PM_GROUP_NAME;
+    out->tag = b[0].data;
+    out->x = b[1].data;
+    out->tet = b[2].data;
+    out->tri = b[3].data;
+    out->group = b[4].data;
+    out->name = b[5].data;
+    for (int k = 0; k < 6; k++)
+        b[k].data = NULL;
+done:
+    pm_blobs_release(b);
+    /* whatever gmsh made of it: the file is to blame */
+    if (status == PM_NUMERIC)
+        status = err->status = PM_INPUT;
     return status;
 }

@@ -40,4 +40,24 @@ struct pm_tetra {
 enum pm_status pm_gmsh_volume(const struct pm_gmsh_input *in, double timeout, struct pm_tetra *out,
                               struct pm_err *err);
 
+enum { PM_GROUP_NAME = 64 };
+
+/* What a mesh file holds in its named physical groups. */
+struct pm_msh {
+    ptrdiff_t nn, ne, nt, ng;
+    int64_t *tag;   /* node numbers, ascending (nn) */
+    double *x;      /* (nn x 3) */
+    int corners;    /* nodes of a tetrahedron: 4 or 10 */
+    int32_t *tet;   /* tetrahedra of the group `body`, places of nodes (ne x corners) */
+    int32_t *tri;   /* vertices of the triangles of the other groups (nt x 3) */
+    int32_t *group; /* their group (nt) */
+    char (*name)[PM_GROUP_NAME]; /* names of the surface groups (ng) */
+};
+
+/* Reads a gmsh file (2.2 or 4.1, ASCII or binary). PM_INPUT with gmsh's message where it cannot,
+ * where there is no group `body` of 4- or 10-node tetrahedra of one kind, or where elements refer
+ * to missing nodes. */
+enum pm_status pm_gmsh_read(const char *path, struct pm_msh *out, struct pm_err *err);
+void pm_msh_release(struct pm_msh *m);
+
 #endif

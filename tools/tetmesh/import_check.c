@@ -1,0 +1,201 @@
+#include "tools/tetmesh/import_check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/mechanics/tet10.h"
+#include "tools/tetmesh/quality.h"
+
+/* Nodes closer than this part of the body's extent are one. */
+static const double coincide = 1e-10;
+
+static double extent(const struct pm_mesh *m)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double lo = INFINITY, hi = -INFINITY;
+        for (ptrdiff_t a = 0; a < m->nn; a++) {
+            lo = fmin(lo, m->x[3 * a + i]);
+            hi = fmax(hi, m->x[3 * a + i]);
+        }
+        sum += (hi - lo) * (hi - lo);
+    }
+    return sqrt(sum);
+}
+
+struct place {
+    double x[3];
+    ptrdiff_t a;
+};
+
+static int by_x(const void *a, const void *b)
+{
+    const struct place *p = a, *q = b;
+    for (int i = 0; i < 3; i++)
+        if (p->x[i] != q->x[i])
+            return p->x[i] < q->x[i] ? -1 : 1;
+    return (p->a > q->a) - (p->a < q->a);
+}
+
+enum pm_status pm_import_check_nodes(const struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct place *p = NULL;
+    PM_TRY(PM_NEW(p, m->nn, err));
+    for (ptrdiff_t a = 0; a < m->nn; a++) {
+        p[a].a = a;
+        memcpy(p[a].x, m->x + 3 * a, sizeof p[a].x);
+        for (int i = 0; i < 3; i++)
+            if (!isfinite(p[a].x[i]))
+                PM_TRY(pm_fail(err, PM_INPUT, "node %lld is at (%g, %g, %g)", (long long)m->tag[a],
+                               p[a].x[0], p[a].x[1], p[a].x[2]));
+    }
+    const double limit = coincide * extent(m);
+    qsort(p, (size_t)m->nn, sizeof *p, by_x);
+    for (ptrdiff_t i = 0; i < m->nn; i++)
+        for (ptrdiff_t j = i + 1; j < m->nn && p[j].x[0] - p[i].x[0] <= limit; j++)
+            if (fabs(p[j].x[1] - p[i].x[1]) <= limit && fabs(p[j].x[2] - p[i].x[2]) <= limit)
+                PM_TRY(pm_fail(err, PM_INPUT, "nodes %lld and %lld coincide at (%g, %g, %g)",
+                               (long long)m->tag[p[i].a], (long long)m->tag[p[j].a], p[i].x[0],
+                               p[i].x[1], p[i].x[2]));
+done:
+    pm_free(p);
+    return status;
+}
+
+enum pm_status pm_import_check_elements(const struct pm_mesh *m, struct pm_err *err)
+{
+    static const double at[11][3] = {{0, 0, 0},   {1, 0, 0},   {0, 1, 0},      {0, 0, 1},
+                                     {.5, 0, 0},  {.5, .5, 0}, {0, .5, 0},     {0, 0, .5},
+                                     {0, .5, .5}, {.5, 0, .5}, {.25, .25, .25}};
+    for (ptrdiff_t e = 0; e < m->ne; e++) {
+        const int32_t *v = m->tet + 10 * e;
+        double X[30], dN[30], low = INFINITY, size = 0;
+        pm_quality_gather(m->x, m->tet, e, X);
+        for (int q = 0; q < 11 + PM_TET_POINTS; q++)
+            low = fmin(low, pm_tet10_gradient(X, q < 11 ? at[q] : pm_tet_xi[q - 11], dN));
+        for (int k = 1; k < 4; k++)
+            for (int i = 0; i < 3; i++)
+                size += (X[3 * k + i] - X[i]) * (X[3 * k + i] - X[i]);
+        if (!(low > 1e-9 * size * sqrt(size)))
+            return pm_fail(
+                err, PM_INPUT,
+                "the tetrahedron of nodes %lld %lld %lld %lld is %s: smallest det dX/dxi = %g mm3",
+                (long long)m->tag[v[0]], (long long)m->tag[v[1]], (long long)m->tag[v[2]],
+                (long long)m->tag[v[3]], low < 0 ? "inverted" : "flat", low);
+    }
+    return PM_OK;
+}
+
+static int32_t root(int32_t *parent, int32_t a)
+{
+    while (parent[a] != a)
+        a = parent[a] = parent[parent[a]];
+    return a;
+}
+
+enum pm_status pm_import_check_parts(const struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    int32_t *parent = NULL;
+    PM_TRY(PM_NEW(parent, m->nn, err));
+    for (ptrdiff_t a = 0; a < m->nn; a++)
+        parent[a] = (int32_t)a;
+    for (ptrdiff_t k = 0; k < 10 * m->ne; k++)
+        parent[root(parent, m->tet[k])] = root(parent, m->tet[10 * (k / 10)]);
+    for (ptrdiff_t a = 1; a < m->nn; a++)
+        if (root(parent, (int32_t)a) != root(parent, 0))
+            PM_TRY(pm_fail(err, PM_INPUT,
+                           "the body is in parts: nodes %lld and %lld are not connected",
+                           (long long)m->tag[0], (long long)m->tag[a]));
+done:
+    pm_free(parent);
+    return status;
+}
+
+/* One side of a boundary face. */
+struct side {
+    int32_t low, high, tag;
+};
+
+static int by_side(const void *a, const void *b)
+{
+    const struct side *p = a, *q = b;
+    if (p->low != q->low)
+        return p->low < q->low ? -1 : 1;
+    if (p->high != q->high)
+        return p->high < q->high ? -1 : 1;
+    return (p->tag > q->tag) - (p->tag < q->tag);
+}
+
+/* Sides of the faces, those on one edge together. */
+static enum pm_status sorted_sides(const struct pm_mesh *m, struct side **out, struct pm_err *err)
+{
+    struct side *s = NULL;
+    *out = NULL;
+    if (PM_NEW(s, 3 * m->nf, err) != PM_OK)
+        return PM_SYSTEM;
+    for (ptrdiff_t k = 0; k < 3 * m->nf; k++) {
+        const int32_t *v = m->tri + 6 * (k / 3);
+        const int32_t a = v[k % 3], b = v[(k + 1) % 3];
+        s[k] = (struct side){a < b ? a : b, a < b ? b : a, m->tri_tag[k / 3]};
+    }
+    qsort(s, (size_t)(3 * m->nf), sizeof *s, by_side);
+    *out = s;
+    return PM_OK;
+}
+
+static enum pm_status check_closed(const struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct side *s = NULL;
+    PM_TRY(sorted_sides(m, &s, err));
+    for (ptrdiff_t i = 0, j; i < 3 * m->nf; i = j) {
+        int symmetry = 0;
+        for (j = i; j < 3 * m->nf && s[j].low == s[i].low && s[j].high == s[i].high; j++)
+            symmetry |= s[j].tag <= PM_FACE_SYM_X;
+        for (ptrdiff_t k = i, n; k < j; k += n) {
+            for (n = 1; k + n < j && s[k + n].tag == s[k].tag; n++)
+                ;
+            const double *p = m->x + 3 * (ptrdiff_t)s[i].low;
+            if (s[k].tag > 0 && n % 2 != 0 && !symmetry)
+                PM_TRY(pm_fail(err, PM_INPUT,
+                               "group 'chamber%d' is not closed at the edge of nodes %lld and %lld "
+                               "near (%g, %g, %g)",
+                               (int)s[k].tag, (long long)m->tag[s[i].low],
+                               (long long)m->tag[s[i].high], p[0], p[1], p[2]));
+        }
+    }
+done:
+    pm_free(s);
+    return status;
+}
+
+enum pm_status pm_import_check_faces(const struct pm_mesh *m, struct pm_err *err)
+{
+    const double limit = 1e-6 * extent(m);
+    double plane[3] = {NAN, NAN, NAN};
+    int base = 0;
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        const int axis = PM_FACE_SYM_X - m->tri_tag[f];
+        base |= m->tri_tag[f] == PM_FACE_BASE;
+        for (int k = 0; k < 6 && axis >= 0 && axis < 3; k++) {
+            const int32_t a = m->tri[6 * f + k];
+            const double x = m->x[3 * (ptrdiff_t)a + axis];
+            if (isnan(plane[axis]))
+                plane[axis] = x;
+            if (fabs(x - plane[axis]) > limit)
+                return pm_fail(
+                    err, PM_INPUT,
+                    "group 'symmetry-%c' is not planar: node %lld has %c = %.9g, expected %.9g",
+                    "xyz"[axis], (long long)m -> tag[a], "xyz"[axis], x, plane[axis]);
+        }
+    }
+    if (!base && (isnan(plane[0]) || isnan(plane[1]) || isnan(plane[2])))
+        return pm_fail(err, PM_INPUT,
+                       "nothing holds the body: expected the group 'base', or 'symmetry-x', "
+                       "'symmetry-y' and 'symmetry-z'");
+    return check_closed(m, err);
+}
