@@ -61,6 +61,12 @@ done:
     return status;
 }
 
+int rebuild_misses(const struct rebuild *r, ptrdiff_t k)
+{
+    return !(r->report->max[k] <= DISTANCE_MAX &&
+             fabs(r->report->volume_ratio[k] - 1) <= VOLUME_OFF);
+}
+
 static void judge_surface(struct rebuild *r, const struct pm_surfaces *to, ptrdiff_t k)
 {
     struct surfremesh_report *p = r->report;
@@ -121,6 +127,7 @@ enum pm_status rebuild_judge(struct rebuild *r, const struct pm_surfaces *to, st
         struct pm_spacing now;
         p->spacing_after[k] = p->spacing_before[k];
         p->volume_ratio[k] = 1;
+        p->mean[k] = p->max[k] = 0;
         if (!r->redo[k])
             continue;
         PM_TRY(compare(r, to, &m, &before, k, err));

@@ -92,6 +92,7 @@ static enum pm_status reseed(struct rebuild *r, struct pm_surfaces *to, struct p
             PM_TRY(pm_chamber_remesh(s, k, r->spacing[k], &to->s[k], err));
         to->offset[k + 1] = to->offset[k] + to->s[k].n;
     }
+    pm_free(r->shift);
     PM_TRY(PM_NEW(r->shift, 2 * s->s[0].n, err));
     if (r->redo[0])
         PM_TRY(pm_exterior_relax(&s->s[0], r->shift, err));

@@ -28,5 +28,7 @@ enum pm_status rebuild_start(const struct rebuild *r, ptrdiff_t k, const struct 
  * more than 0.5 %, spacing worse, a fault of pm_surfaces_measure, a wall thinner than wall_min that
  * was not so before. */
 enum pm_status rebuild_judge(struct rebuild *r, const struct pm_surfaces *to, struct pm_err *err);
+/* Surface k lies too far off the old one, or its volume does, in the report. */
+int rebuild_misses(const struct rebuild *r, ptrdiff_t k);
 
 #endif

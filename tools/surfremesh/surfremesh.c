@@ -41,46 +41,72 @@ static void keep(struct surfremesh_report *report, ptrdiff_t ns)
     }
 }
 
+/* A chamber whose result misses its old surface is tried again with closer control points, unless
+ * the options fix their number. Returns whether there is one. */
+static int refine(struct rebuild *r)
+{
+    int any = 0;
+
+    for (ptrdiff_t k = 1; k < r->from->ns; k++)
+        if (r->redo[k] && rebuild_misses(r, k)) {
+            r->spacing[k] *= 0.85;
+            any = 1;
+        }
+    return any && r->o->spacing <= 0 && r->o->points <= 0;
+}
+
+/* One attempt; a mesher or a map that fails refuses the result, PM_SYSTEM ends the tool. */
+static enum pm_status attempt(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
+{
+    struct surfremesh_report *report = r->report;
+    struct pm_err why = {0};
+    enum pm_status status;
+
+    pm_surfaces_release(to);
+    report->reason[0] = '\0';
+    status = rebuild_surfaces(r, to, &why);
+    if (status == PM_OK)
+        status = rebuild_judge(r, to, &why);
+    if (status == PM_SYSTEM) {
+        *err = why;
+        return status;
+    }
+    if (status != PM_OK)
+        snprintf(report->reason, sizeof report->reason, "%.255s", why.text);
+    for (ptrdiff_t k = 0; status == PM_OK && k < to->ns; k++)
+        if (r->redo[k])
+            pm_log(1,
+                   "surface %td: %td control points for %td, spacing variation %.3f -> %.3f, "
+                   "distance mean %.4f "
+                   "max %.4f mm, volume %+.3f %%",
+                   k, to->s[k].n, r->from->s[k].n, report->spacing_before[k],
+                   report->spacing_after[k], report->mean[k], report->max[k],
+                   100 * (report->volume_ratio[k] - 1));
+    return PM_OK;
+}
+
 enum pm_status pm_surfremesh(const struct pm_surfaces *from, const struct surfremesh_opts *o,
                              struct pm_surfaces *to, struct surfremesh_report *report,
                              struct pm_err *err)
 {
+    enum { ATTEMPTS = 3 };
     enum pm_status status = PM_OK;
     struct rebuild r = {.from = from, .o = o, .report = report};
-    struct pm_err why = {0};
     int any = 0;
 
     memset(to, 0, sizeof *to);
     PM_TRY(rebuild_plan(&r, err));
     for (ptrdiff_t k = 0; k < from->ns; k++)
         any |= r.redo[k];
-    if (!any) {
+    if (!any)
         pm_log(1, "control points are even, nothing to do");
-        keep(report, from->ns);
-        goto done;
+    for (int i = 0; any && i < ATTEMPTS; i++) {
+        PM_TRY(attempt(&r, to, err));
+        report->refused = report->reason[0] != '\0';
+        if (!report->refused || to->s == NULL || !refine(&r))
+            break;
     }
-    /* a mesher or a map that fails is a refusal of the result, not the end */
-    status = rebuild_surfaces(&r, to, &why);
-    if (status == PM_OK)
-        status = rebuild_judge(&r, to, &why);
-    if (status == PM_SYSTEM) {
-        *err = why;
-        goto done;
-    }
-    if (status != PM_OK)
-        snprintf(report->reason, sizeof report->reason, "%.255s", why.text);
-    status = PM_OK;
-    report->refused = report->reason[0] != '\0';
-    for (ptrdiff_t k = 0; k < from->ns; k++)
-        if (r.redo[k])
-            pm_log(1,
-                   "surface %td: %td control points for %td, spacing variation %.3f -> %.3f, "
-                   "distance mean %.4f "
-                   "max %.4f mm, volume %+.3f %%",
-                   k, to->s != NULL ? to->s[k].n : 0, from->s[k].n, report->spacing_before[k],
-                   report->spacing_after[k], report->mean[k], report->max[k],
-                   100 * (report->volume_ratio[k] - 1));
-    if (report->refused) {
+    if (!any || report->refused) {
         pm_surfaces_release(to);
         keep(report, from->ns);
     }
