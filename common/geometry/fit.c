@@ -132,8 +132,6 @@ static enum pm_status analyse(struct system *y, struct pm_err *err)
     PM_TRY(pm_order_nodes(n, y->adj_ptr, y->adj, y->perm, err));
     for (ptrdiff_t k = 0; k < n; k++)
         y->place[y->perm[k]] = k;
-    PM_TRY(PM_NEW(y->lptr, n + 1, err));
-    PM_TRY(PM_NEW(y->lrow, n + y->adj_ptr[n] / 2, err));
     PM_TRY(lower_triangle(y, mark, err));
 done:
     pm_free(mark);
