@@ -1,10 +1,10 @@
 /* Gauss sets of the actuation box [pmin, pmax]^n, reduced by the symmetry of the case
- * [theory 7.3, 7.4].
+ * [model 7.3, 7.4].
  *
  * Boundary form: m Gauss-Legendre points per axis on each of the 2n faces, faces in the order p_1 =
  * pmin, p_1 = pmax, p_2 = pmin, ..; on a face the last pressure varies fastest. Measure 2R: m
  * points on each of the six edges that bound the image of the cube, (M,0,0) > (M,M,0) > (0,M,0) >
- * .. [theory 7.2]. Volume form: m^n points. Of every orbit of points under the usable symmetry
+ * .. [model 7.2]. Volume form: m^n points. Of every orbit of points under the usable symmetry
  * operations the first one stays, with the size of the orbit as multiplicity.
  *
  * A symmetry operation of the design is usable if the loaded robot keeps it (it maps the clamped

@@ -1,4 +1,4 @@
-/* Workspace measures w(U, J) per point [theory 7]; T = sigma * sum weight * w.
+/* Workspace measures w(U, J) per point [model 7]; T = sigma * sum weight * w.
  *
  *   2T 3T 1R2T  area or volume in the case's DoFs                              boundary, volume
  *   3R          volume of orientations, density sinc^2(eta/2)/8, eta = |theta| boundary, volume

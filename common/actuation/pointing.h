@@ -1,4 +1,4 @@
-/* The integrand of measure 2R on one edge of its path [theory 7.2]. */
+/* The integrand of measure 2R on one edge of its path [model 7.2]. */
 #ifndef PM_POINTING_H
 #define PM_POINTING_H
 

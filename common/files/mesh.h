@@ -24,7 +24,7 @@ struct pm_mesh {
                           but pcase */
     ptrdiff_t nn, ne, nf, nc; /* nodes, tetrahedra, boundary faces, chambers */
     double *x;                /* reference node positions                         (nn x 3)  [mm] */
-    double *x_generated; /* as generated: the Laplace extension [theory 5] is built on them (nn x 3)
+    double *x_generated; /* as generated: the Laplace extension [model 5] is built on them (nn x 3)
                             [mm] */
     int32_t *tet;     /* node ids, gmsh order: vertices, edges (01)(12)(20)(30)(23)(13) (ne x 10) */
     int32_t *tri;     /* boundary faces, node order vertices, edges (01)(12)(20); normal out of the

@@ -11,7 +11,7 @@ struct pm_sens {
     ptrdiff_t N;
     double *gradient; /* dw_g/dphi (N x 3), not projected on the symmetric subspace */
     double identity_translation, identity_scaling,
-        identity_rotation; /* relative defects of the nodal gradient [theory 4.3] */
+        identity_rotation; /* relative defects of the nodal gradient [model 4.3] */
 };
 
 enum pm_status pm_sens_load(const char *path, struct pm_sens *s, struct pm_err *err);

@@ -9,7 +9,7 @@
 enum pm_surface_type {
     PM_SURFACE_BSPLINE =
         0, /* tube, periodic x clamped cubic; parameter S = (cos t, sin t, v), v in [0, 1] */
-    PM_SURFACE_SPHERE = 1, /* closed map [eq 52-59]; parameter S on the unit sphere */
+    PM_SURFACE_SPHERE = 1, /* closed map [paper 52-59]; parameter S on the unit sphere */
 };
 
 struct pm_surface {

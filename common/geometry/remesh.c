@@ -15,7 +15,7 @@ void pm_patch_release(struct pm_patch *p)
     *p = (struct pm_patch){0};
 }
 
-/* Largest principal curvature |k| = |H| + sqrt(H^2 - K) [theory 6.2]. */
+/* Largest principal curvature |k| = |H| + sqrt(H^2 - K) [model 6.2]. */
 static double curvature(const double r_a[6], const double r_ab[9], const double n[3])
 {
     double g[3] = {0}, b[3] = {0};

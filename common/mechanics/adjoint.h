@@ -1,4 +1,4 @@
-/* Continuum Jacobian and the aggregated second-order adjoint of one load case [theory 4.1-4.3]. */
+/* Continuum Jacobian and the aggregated second-order adjoint of one load case [model 4.1-4.3]. */
 #ifndef PM_ADJOINT_H
 #define PM_ADJOINT_H
 

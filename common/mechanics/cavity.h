@@ -1,4 +1,4 @@
-/* Volume of a chamber as a cubic form of the node positions of its tri6 faces [theory 2].
+/* Volume of a chamber as a cubic form of the node positions of its tri6 faces [model 2].
  * Here the normal of the face is the one of its node order; a chamber face of a mesh points out of
  * the solid, that is into the cavity: its volume is MINUS the sum of these. x relative to x0 (on
  * every symmetry plane). */

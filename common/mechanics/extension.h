@@ -1,4 +1,4 @@
-/* Extension of surface motion to all nodes of a mesh [theory 5]: three scalar quadratic Laplace
+/* Extension of surface motion to all nodes of a mesh [model 5]: three scalar quadratic Laplace
  * problems on the generated mesh, X_I = X0_I + Ext (X_S - X0_S); every boundary node (surface, cap)
  * is given. */
 #ifndef PM_EXTENSION_H

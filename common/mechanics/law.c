@@ -86,7 +86,7 @@ static void power_term(struct derivatives *d, int a, double s, double e, const d
     set3(d, JJ, JJ, JJ, d->d3[JJ][JJ][JJ] - s * e * (e + 1) * (e + 2) * q * I / (J * J * J));
 }
 
-/* f(y) = c1 y + c2 y^2 + c3 y^3, y = J^(-2/3) I1 - 3 [theory 1.2]: chain rule. */
+/* f(y) = c1 y + c2 y^2 + c3 y^3, y = J^(-2/3) I1 - 3 [model 1.2]: chain rule. */
 static void yeoh_term(struct derivatives *d, const double *c, const double *i)
 {
     struct derivatives y = {0};

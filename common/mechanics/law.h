@@ -1,4 +1,4 @@
-/* Hyperelastic laws through invariants [theory 1]: W = W_iso(I1, I2, J) + U(J), U = kappa/2 (J -
+/* Hyperelastic laws through invariants [model 1]: W = W_iso(I1, I2, J) + U(J), U = kappa/2 (J -
  * 1)^2, paper (87). All tensors 3x3 row major, [MPa]. */
 #ifndef PM_LAW_H
 #define PM_LAW_H

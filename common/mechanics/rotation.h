@@ -1,4 +1,4 @@
-/* Rotation of the rigid end-effector by exponential coordinates with all derivatives [theory 3]. */
+/* Rotation of the rigid end-effector by exponential coordinates with all derivatives [model 3]. */
 #ifndef PM_ROTATION_H
 #define PM_ROTATION_H
 

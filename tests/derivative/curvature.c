@@ -1,5 +1,5 @@
 /* Curvature of an ellipsoid in closed form, poles included; variations of curvature and area
- * against differences [theory 6.2]. */
+ * against differences [model 6.2]. */
 #include "common/geometry/curvature.h"
 
 #include "common/base/memory.h"

@@ -1,5 +1,5 @@
 /* Gauss sets: the published ones, their weights, and that a reduced sum is the full sum
- * [theory 7.3]. */
+ * [model 7.3]. */
 #include "common/actuation/loads.h"
 #include "common/base/memory.h"
 #include "common/mechanics/rotation.h"

@@ -58,7 +58,7 @@ done:
     return status;
 }
 
-/* Relative defects of D under translation, scaling and rotation of the body [theory 4.3]: exact
+/* Relative defects of D under translation, scaling and rotation of the body [model 4.3]: exact
  * identities. */
 static void identities(const struct adjsens_point *pt, const double *D, const double D_ref[3],
                        struct pm_sens *out)

@@ -19,7 +19,7 @@ extern const double pm_curve_bound;
 /* Fills m (all but the case and the reference point). The mid-side node of a surface edge (a, b) is
  *   x = (1 - t) (x_a + x_b)/2 + t r(S_m),
  * S_m the foot of the chord's middle on the surface (on a rim: along the rim); its displacement
- * from the chord is carried into the interior by the Laplace extension of theory 5. t = 1, but *=
+ * from the chord is carried into the interior by the Laplace extension of model 5. t = 1, but *=
  * 0.7 around elements whose scaled Jacobian is below the bound until none is left: x stays linear
  * in the control points. PM_NUMERIC where that does not succeed or where the tetrahedra do not fit
  * the shell. */

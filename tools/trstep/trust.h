@@ -1,4 +1,4 @@
-/* Decisions of the trust region [theory 8]: accept or reject, radius, penalty weights, verdict. */
+/* Decisions of the trust region [model 8]: accept or reject, radius, penalty weights, verdict. */
 #ifndef TRSTEP_TRUST_H
 #define TRSTEP_TRUST_H
 
