@@ -99,12 +99,11 @@ enum pm_status pm_distance_nearest(const struct pm_surfaces *s, const struct pm_
                                    struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_map **map = NULL;
+    struct pm_map *map[PM_MAX_CHAMBERS + 1] = {0};
     struct pm_pair *pair = NULL, *best = NULL;
     double *phi = NULL, *x = NULL;
     ptrdiff_t n = 0, ns = s->ns;
 
-    PM_TRY(PM_NEW(map, ns, err));
     PM_TRY(PM_NEW(best, ns * ns, err));
     PM_TRY(PM_NEW(phi, 3 * s->offset[ns], err));
     PM_TRY(PM_NEW(x, 3 * samples->n, err));
@@ -127,9 +126,8 @@ enum pm_status pm_distance_nearest(const struct pm_surfaces *s, const struct pm_
             PM_TRY(refine(s, samples, map, best[k], &near[k], err));
     }
 done:
-    for (ptrdiff_t k = 0; map != NULL && k < ns; k++)
+    for (ptrdiff_t k = 0; k < ns; k++)
         pm_map_free(map[k]);
-    pm_free(map);
     pm_free(best);
     pm_free(pair);
     pm_free(phi);

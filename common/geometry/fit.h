@@ -15,9 +15,9 @@ struct pm_fit {
     const uint8_t *fixed; /* 1: coordinate keeps its value (n x 3), NULL: none */
 };
 
-/* psi (n x 3): in the start (the target at the control points), out the fitted control points. error: rms and
- * largest of |target - r| over the samples [mm]. */
-enum pm_status pm_fit_points(const struct pm_map *map, ptrdiff_t n, const struct pm_fit *fit, double *psi,
-                             double error[2], struct pm_err *err);
+/* psi (n x 3): in the start (the target at the control points), out the fitted control points.
+ * error: rms and largest of |target - r| over the samples [mm]. */
+enum pm_status pm_fit_points(const struct pm_map *map, ptrdiff_t n, const struct pm_fit *fit,
+                             double *psi, double error[2], struct pm_err *err);
 
 #endif

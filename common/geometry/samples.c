@@ -70,12 +70,13 @@ static void part(const struct patch *p, ptrdiff_t q, double S[3], double *area)
 {
     static const int at[2][3][2] = {{{0, 0}, {1, 0}, {0, 1}}, {{1, 0}, {1, 1}, {0, 1}}};
     double m = (double)p->cuts, corner[3][3], sum[2] = {0};
-    ptrdiff_t row = 0;
+    ptrdiff_t row = 0, column;
 
     while (q >= 2 * (p->cuts - row) - 1)
         q -= 2 * (p->cuts - row++) - 1;
+    column = q / 2;
     for (int k = 0; k < 3; k++) {
-        double b = (double)(q / 2 + at[q % 2][k][0]) / m, c = (double)(row + at[q % 2][k][1]) / m;
+        double b = (double)(column + at[q % 2][k][0]) / m, c = (double)(row + at[q % 2][k][1]) / m;
         blend(p, 1 - b - c, b, c, corner[k]);
         sum[0] += b / 3;
         sum[1] += c / 3;
@@ -206,12 +207,10 @@ enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdi
 {
     enum pm_status status = PM_OK;
     struct pm_samples m = {0};
-    struct pm_map **map = NULL;
-    ptrdiff_t **plans = NULL, capacity = 0;
+    struct pm_map *map[PM_MAX_CHAMBERS + 1] = {0};
+    ptrdiff_t *plans[PM_MAX_CHAMBERS + 1] = {0}, capacity = 0;
 
     memset(samples, 0, sizeof *samples);
-    PM_TRY(PM_NEW(map, s->ns, err));
-    PM_TRY(PM_NEW(plans, s->ns, err));
     PM_TRY(PM_NEW(m.first, s->ns + 1, err));
     for (ptrdiff_t k = 0; k < s->ns; k++) {
         PM_TRY(PM_NEW(plans[k], s->s[k].nt, err));
@@ -226,13 +225,9 @@ enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdi
     memset(&m, 0, sizeof m);
 done:
     for (ptrdiff_t k = 0; k < s->ns; k++) {
-        if (map != NULL)
-            pm_map_free(map[k]);
-        if (plans != NULL)
-            pm_free(plans[k]);
+        pm_map_free(map[k]);
+        pm_free(plans[k]);
     }
-    pm_free(map);
-    pm_free(plans);
     pm_samples_release(&m);
     return status;
 }

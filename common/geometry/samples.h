@@ -1,5 +1,5 @@
-/* Fixed sample points of all surfaces with their weights of control points: surface integrals, curvature and
- * distances as functions of the control points. */
+/* Fixed sample points of all surfaces with their weights of control points: surface integrals,
+ * curvature and distances as functions of the control points. */
 #ifndef PM_SAMPLES_H
 #define PM_SAMPLES_H
 
@@ -20,26 +20,30 @@ struct pm_samples {
     double *c_ab;     /* r_ab = sum c_ab phi (nw x 3: 11, 12, 22) */
 };
 
-/* Every triangle of control points is cut into equal parts with edges <= spacing [mm] on the present surface,
- * at least `cuts` a side, with one sample in the middle of each: deterministic, and dense where control points
- * are. */
-enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts, struct pm_samples *samples,
-                              struct pm_err *err);
+/* Every triangle of control points is cut into equal parts with edges <= spacing [mm] on the
+ * present surface, at least `cuts` a side, with one sample in the middle of each: deterministic,
+ * and dense where control points are. */
+enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
+                              struct pm_samples *samples, struct pm_err *err);
 void pm_samples_release(struct pm_samples *samples);
-/* r (3), r_a (2 x 3), r_ab (3 x 3) of sample i for control points phi (N x 3, global); NULL where not wanted. */
-void pm_samples_at(const struct pm_samples *samples, ptrdiff_t i, const double *phi, double *r, double *r_a,
-                   double *r_ab);
-/* x (n x 3) and unit normals (n x 3, out of the closed surface; NULL: not wanted) of all samples. */
+/* r (3), r_a (2 x 3), r_ab (3 x 3) of sample i for control points phi (N x 3, global); NULL where
+ * not wanted. */
+void pm_samples_at(const struct pm_samples *samples, ptrdiff_t i, const double *phi, double *r,
+                   double *r_a, double *r_ab);
+/* x (n x 3) and unit normals (n x 3, out of the closed surface; NULL: not wanted) of all samples.
+ */
 void pm_samples_all(const struct pm_samples *samples, const double *phi, double *x, double *normal);
 
-/* Pairs i < j closer than `cutoff`: on distinct surfaces, and on one surface where they are further apart than
- * `geodesic` mm along it (estimate by the metric at creation; INFINITY: none on one surface). */
+/* Pairs i < j closer than `cutoff`: on distinct surfaces, and on one surface where they are further
+ * apart than `geodesic` mm along it (estimate by the metric at creation; INFINITY: none on one
+ * surface). */
 struct pm_pair {
     int32_t i, j;
     double distance; /* [mm] */
 };
 /* Cell grid, sorted by i then j; *pairs is new memory (pm_free). */
-enum pm_status pm_samples_pairs(const struct pm_samples *samples, const double *x, double cutoff, double geodesic,
-                                struct pm_pair **pairs, ptrdiff_t *n, struct pm_err *err);
+enum pm_status pm_samples_pairs(const struct pm_samples *samples, const double *x, double cutoff,
+                                double geodesic, struct pm_pair **pairs, ptrdiff_t *n,
+                                struct pm_err *err);
 
 #endif

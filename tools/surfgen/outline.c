@@ -200,12 +200,14 @@ enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, 
         for (ptrdiff_t k = 0; k < c->nchambers; k++)
             radius[k] = table[k * LEVELS + level];
         n = trace(c, radius, path);
-        if (n < 8)
-            PM_TRY(pm_fail(
+        if (n < 8) {
+            status = pm_fail(
                 err, PM_INPUT,
                 "cross-section of the body at z = %.4g is not one closed curve about the axis "
                 "(wall %g, web %g)",
-                z, c->wall, c->web));
+                z, c->wall, c->web);
+            goto done;
+        }
         resample(path, n, &o->xy[2 * POINTS * level]);
     }
     *out = o;

@@ -1,4 +1,5 @@
-/* The body in cross-sections: discs about the chambers' axes joined by webs to the axis of the body. */
+/* The body in cross-sections: discs about the chambers' axes joined by webs to the axis of the
+ * body. */
 #ifndef PM_OUTLINE_H
 #define PM_OUTLINE_H
 
@@ -6,13 +7,14 @@
 
 struct pm_outline; /* cross-sections at many heights, by arc length */
 
-/* Envelope: the disc of a chamber has the radius of its profile without end caps offset by `wall` along the
- * normal, the web is everything within `web` of the segment from the chamber to the axis; joined with fillets.
- * Cylinder: one circle. PM_INPUT where a cross-section is not one closed curve about the axis. */
+/* Envelope: the disc of a chamber has the radius of its profile without end caps offset by `wall`
+ * along the normal, the web is everything within `web` of the segment from the chamber to the axis;
+ * joined with fillets. Cylinder: one circle. PM_INPUT where a cross-section is not one closed curve
+ * about the axis. */
 enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **o, struct pm_err *err);
 void pm_outline_free(struct pm_outline *o);
-/* The point at height z in [0, H] and at the fraction turn in [0, 1) of the outline, counter-clockwise from the
- * +x axis. */
+/* The point at height z in [0, H] and at the fraction turn in [0, 1) of the outline,
+ * counter-clockwise from the +x axis. */
 void pm_outline_point(const struct pm_outline *o, double turn, double z, double x[3]);
 
 #endif
