@@ -4,8 +4,7 @@
 set -eu
 run=$1 case=$2 size=$3 last=$4
 
-fail()
-{
+fail() {
     echo "optimize: $1" >&2
     exit 2
 }

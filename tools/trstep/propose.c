@@ -12,7 +12,7 @@
 /* LEAST_GAIN: share of the largest linear gain that the constraints must leave to the measure.
  * ROUNDS: times that the watch lists are widened because the step met a violation outside of them.
  */
-static const double LEAST_GAIN = 0.1;
+static const double LEAST_GAIN = 0.1, STIFFNESS = 200;
 enum { ROUNDS = 3, LOWERINGS = 8 };
 
 struct proposal {
@@ -78,6 +78,13 @@ static struct subproblem subproblem_of(struct proposal *p)
                                .context = p};
 }
 
+/* How far from a limit pairs are watched from the start; others are found when a step meets them.
+ */
+static double reach(const struct pm_step *s)
+{
+    return fmin(s->radius, s->accepted.pcase.wall_min) / 4;
+}
+
 /* The step for the present weights; the watch lists grow until the step meets no violation outside
  * them. */
 static enum pm_status solve(struct proposal *p, struct pm_err *err)
@@ -91,7 +98,7 @@ static enum pm_status solve(struct proposal *p, struct pm_err *err)
     for (int round = 0; round < ROUNDS; round++) {
         PM_TRY(subproblem_solve(&problem, p->step, err));
         const double known = penalise(p, p->step, NULL);
-        PM_TRY(penalty_collect(&p->penalty, &p->watch, p->trial, s->radius / 4, 0.8, err));
+        PM_TRY(penalty_collect(&p->penalty, &p->watch, p->trial, reach(s), 0.8, err));
         const double part = penalty_safe_part(&p->penalty, &p->watch, p->phi, p->step);
         for (ptrdiff_t i = 0; i < 3 * p->N; i++) {
             p->step[i] *= part;
@@ -121,7 +128,7 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
     const struct subproblem problem = subproblem_of(p);
     const double unit = s->radius * subproblem_dual_norm(&problem, s->gradient);
 
-    PM_TRY(penalty_collect(&p->penalty, &p->watch, p->phi, s->radius / 4, 0.7, err));
+    PM_TRY(penalty_collect(&p->penalty, &p->watch, p->phi, reach(s), 0.7, err));
     for (int k = 0;; k++) {
         PM_TRY(solve(p, err));
         const double gain = s->gain - weighted(s, s->trial_penalty) + weighted(s, s->penalty);
@@ -142,6 +149,14 @@ done:
     return status;
 }
 
+static void stiffen(struct proposal *p)
+{
+    const struct subproblem problem = subproblem_of(p);
+    const double slope = subproblem_dual_norm(&problem, p->s->gradient);
+    for (int k = 0; k < 2; k++)
+        p->s->weight[k] = fmax(p->s->weight[k], STIFFNESS * slope);
+}
+
 enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
 {
     enum pm_status status;
@@ -154,6 +169,7 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
     pm_surfaces_gather(&s->accepted, p.phi);
     PM_TRY(penalty_new(&s->accepted, &p.penalty, err));
     subproblem_mass(&s->accepted, &p.penalty.samples, p.mass);
+    stiffen(&p);
     PM_TRY(full_penalty(&p, p.phi, s->penalty, s->worst, err));
     if (strcmp(s->verdict, "continue") == 0)
         PM_TRY(search(&p, err));

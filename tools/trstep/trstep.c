@@ -9,10 +9,8 @@
 #include "common/files/sens.h"
 #include "common/geometry/symmetry.h"
 
-/* A violation beyond ALLOWED makes its weight grow, up to MOST times the measure. FIRST: penalty
- * weights of the first step over the measure: 5 % too much curvature on 1 % of the surface then
- * weighs 1 % of the measure. */
-static const double ALLOWED = 0.05, GROWTH = 3, FIRST = 100, MOST = 1e6;
+/* A violation beyond ALLOWED makes its weight grow. */
+static const double ALLOWED = 0.05, GROWTH = 3;
 
 struct trial {
     struct pm_surfaces surfaces;
@@ -122,9 +120,9 @@ static enum pm_status set_base(const struct trial *t, char *const *sens, int nse
     s->radius =
         t->before != NULL ? trust_radius(t->before, &t->judgement) : t->surfaces.pcase.radius;
     for (int k = 0; k < 2; k++) {
-        s->weight[k] = t->before != NULL ? t->before->weight[k] : FIRST * s->value;
+        s->weight[k] = t->before != NULL ? t->before->weight[k] : 0;
         if (t->before != NULL && t->judgement.accepted && t->before->trial_worst[k] > ALLOWED)
-            s->weight[k] = fmin(s->weight[k] * GROWTH, MOST * s->value);
+            s->weight[k] *= GROWTH;
     }
 done:
     return status;

@@ -1,0 +1,58 @@
+#!/bin/bash
+# The optimisation loop on a tiny robot: it raises the measure, equal runs give equal bytes, a killed run goes on to
+# shellcheck disable=SC2016,SC2317
+# the same history, a rejected trial costs no adjoint and shrinks the radius, misuse is refused.
+. tests/lib.sh
+unset MAKEFLAGS MFLAGS MAKELEVEL
+
+# run NAME ITERATIONS [VARIABLE=VALUE..]
+run() {
+    local name=$1 last=$2
+    shift 2
+    make -s -j2 B="$BUILD" optimize CASE=tests/data/tiny.ini RUN="$work/$name" ITERATIONS="$last" "$@"
+}
+
+check "two iterations" run first 2
+check "history has a header and three rows" test "$(wc -l <"$work/first/history.tsv")" -eq 4
+check "first trial accepted and better" awk -F '\t' \
+    'NR == 2 { t = $3 } NR == 3 { good = $2 == 1 && $3 > t } END { exit !good }' "$work/first/history.tsv"
+check "seconds of every stage" grep -qP '^it002\tfesolve 03\t[0-9.]+$' "$work/first/times.tsv"
+check "the second iteration reconstructs its surfaces" test -e "$work/first/it002/surf.h5" -a ! -e "$work/first/it001/surf.h5"
+
+check "the same again" run second 2
+same() {
+    local file
+    for file in "$work"/first/it*/*.h5 "$work/first/history.tsv"; do
+        cmp "$file" "${file/first/$1}" || return
+    done
+}
+check "equal bytes" same second
+
+# Killed with everything it started, as soon as the first state of iteration 1 is there.
+setsid make -s -j2 B="$BUILD" optimize CASE=tests/data/tiny.ini RUN="$work/third" ITERATIONS=2 >"$work/log" 2>&1 &
+pid=$!
+for ((i = 0; i < 1200; i++)); do
+    [ -z "$(ls "$work"/third/it001/state-*.h5 2>/dev/null)" ] || break
+    sleep 0.05
+done
+kill -KILL -- "-$pid"
+wait "$pid" 2>/dev/null
+check "killed in iteration 1" test ! -e "$work/third/it001/step.h5"
+check "goes on" run third 2
+check "the killed run ends with the same files" same third
+
+# A design that cannot be meshed: a control point of a chamber far outside of the body.
+check "one iteration" run wild 0
+check "damage" "$LIB/mangle" set "$work/wild/it000/step.h5" /surface1/phi 0 400
+check "goes on" run wild 2
+row() {
+    awk -F '\t' -v n="$1" "NR == n + 2 { exit !($2) }" "$work/wild/history.tsv"
+}
+check "the trial is rejected with a reason and no measure" row 1 '$2 == 0 && $3 == "-" && $11 != "-"'
+check "without adjoint work" test ! -e "$work/wild/it001/sens-00.h5"
+check "the next one has a third of the radius and is better" row 2 '$2 == 1 && $7 < 0.07 && $3 > 0.066'
+
+refused 2 "another case for the same run" 'another case or mesh size' \
+    env BIN="$BIN" pipelines/optimize.sh "$work/first" tests/data/tiny.ini 9 2
+refused 2 "no case" 'has no case' env BIN="$BIN" pipelines/optimize.sh "$work/none" '' '' 2
+finish
