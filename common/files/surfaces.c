@@ -236,7 +236,7 @@ void pm_surfaces_scatter(struct pm_surfaces *s, const double *phi)
 
 void pm_surfaces_release(struct pm_surfaces *s)
 {
-    for (ptrdiff_t k = 0; k < s->ns; k++) {
+    for (ptrdiff_t k = 0; s->s != NULL && k < s->ns; k++) {
         pm_free(s->s[k].phi);
         pm_free(s->s[k].free);
         pm_free(s->s[k].Phi);
