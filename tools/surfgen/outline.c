@@ -124,6 +124,16 @@ static double correct(const struct pm_case *c, const double *radius, double p[2]
     return fabs(b.f) / sqrt(g);
 }
 
+/* Is chamber l another one on the axis of chamber k, beside the level z? */
+static int beside(const struct pm_case *c, ptrdiff_t k, ptrdiff_t l, double z)
+{
+    const double *a = c->chamber[k].center, *b = c->chamber[l].center;
+
+    return k != l && hypot(a[0] - b[0], a[1] - b[1]) < 1e-9 &&
+           fabs(z - b[2]) < pm_profile_half(&c->chamber[l]) &&
+           fabs(z - a[2]) >= pm_profile_half(&c->chamber[k]);
+}
+
 /* Follows the curve once around from the +x axis into path; returns its points, 0 where it does not
  * close. */
 static ptrdiff_t trace(const struct pm_case *c, const double *radius, double *path)
@@ -197,8 +207,12 @@ enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, 
     for (ptrdiff_t level = 0; level < LEVELS; level++) {
         double z = c->height * (double)level / (LEVELS - 1);
         ptrdiff_t n;
-        for (ptrdiff_t k = 0; k < c->nchambers; k++)
+        for (ptrdiff_t k = 0; k < c->nchambers;
+             k++) { /* above and below, a chamber makes way for its neighbour */
             radius[k] = table[k * LEVELS + level];
+            for (ptrdiff_t l = 0; l < c->nchambers; l++)
+                radius[k] = beside(c, k, l, z) ? 0 : radius[k];
+        }
         n = trace(c, radius, path);
         if (n < 8) {
             status = pm_fail(

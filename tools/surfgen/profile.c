@@ -28,6 +28,11 @@ static double half_straight(const struct pm_chamber *c)
     return c->length / 2 - cap_height(c);
 }
 
+double pm_profile_half(const struct pm_chamber *c)
+{
+    return half_straight(c) + cap_height(c);
+}
+
 /* Crest in the middle; fades out over half a pitch before the caps (C^2). */
 static double wave(const struct pm_chamber *c, double z)
 {

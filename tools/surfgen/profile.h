@@ -22,6 +22,8 @@ void pm_profile_at_arc(const struct pm_profile *p, double s, double *r, double *
 /* The point over S = (sech psi cos t, sech psi sin t, tanh psi), relative to the centre: the
  * conformal map. */
 void pm_profile_point(const struct pm_profile *p, const double S[3], double x[3]);
+/* Half of the length along z. */
+double pm_profile_half(const struct pm_chamber *c);
 /* Radius at height z over the centre without the end caps: what the envelope of the body follows.
  */
 double pm_profile_outer(const struct pm_chamber *c, double z);
