@@ -246,7 +246,6 @@ static enum pm_status untangle(struct curving *c, struct pm_curve_report *r, str
 {
     enum pm_status status = PM_OK;
     struct pm_mesh *m = c->m;
-    double mean_ratio;
     ptrdiff_t bad = 1;
     PM_TRY(PM_NEW(m->x, 3 * m->nn, err));
     for (r->sweeps = 0; bad > 0; r->sweeps++) {
@@ -265,7 +264,6 @@ static enum pm_status untangle(struct curving *c, struct pm_curve_report *r, str
         m->max_damping = fmax(m->max_damping, 1 - c->t[a]);
         r->damped += c->t[a] < 1;
     }
-    pm_curve_quality(m, m->x, &m->min_jacobian, &mean_ratio);
 done:
     return status;
 }
@@ -303,6 +301,7 @@ enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell 
 {
     enum pm_status status = PM_OK;
     struct curving c = {.s = s, .shell = shell, .m = m, .nv = tetra->nn};
+    double mean_ratio;
     *r = (struct pm_curve_report){0};
     m->nc = s->ns - 1;
     PM_TRY(PM_NEW(c.map, s->ns, err));
@@ -315,6 +314,7 @@ enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell 
     PM_TRY(extend(&c, err));
     PM_TRY(untangle(&c, r, err));
     PM_TRY(weigh(&c, err));
+    pm_curve_quality(m, m->x, &m->min_jacobian, &mean_ratio);
     PM_TRY(PM_NEW(m->x_generated, 3 * m->nn, err));
     memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
 done:

@@ -467,6 +467,20 @@ done:
     return status;
 }
 
+/* gmsh may go on after an error: any is one. */
+static enum pm_status open_file(const char *path, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    char *text = NULL;
+    GMSH(gmshOpen(path, &ierr), "it cannot be read");
+    GMSH(gmshLoggerGetLastError(&text, &ierr), "it cannot be read");
+    if (text != NULL && text[0] != '\0')
+        status = pm_fail(err, PM_INPUT, "it cannot be read: gmsh says '%s'", text);
+done:
+    gmshFree(text);
+    return status;
+}
+
 static enum pm_status read_job(const void *arg, struct pm_blob *out, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -474,7 +488,7 @@ static enum pm_status read_job(const void *arg, struct pm_blob *out, struct pm_e
     int *group = NULL;
     size_t n = 0;
     PM_TRY(start(err));
-    GMSH(gmshOpen(arg, &ierr), "not a mesh");
+    PM_TRY(open_file(arg, err));
     GMSH(gmshModelGetPhysicalGroups(&group, &n, -1, &ierr), "groups");
     PM_TRY(blob(&out[5], (ptrdiff_t)n + 1, PM_GROUP_NAME, err));
     r.name = out[5].data;
