@@ -9,6 +9,7 @@
 #include "common/files/mesh.h"
 #include "common/files/sens.h"
 #include "common/files/state.h"
+#include "common/files/step.h"
 #include "common/files/surfaces.h"
 #include "common/files/work.h"
 
@@ -182,24 +183,140 @@ done:
     return status;
 }
 
-/* Writes a record (struct pm_surfaces, pm_mesh ... by kind) as a file of its own. */
+static inline enum pm_status sample_step(struct pm_step *s, struct pm_err *err)
+{
+    enum pm_status status;
+    *s = (struct pm_step){.verdict = "continue",
+                          .value = 12.5,
+                          .weight = {1, 2},
+                          .radius = 0.25,
+                          .gain = 0.5,
+                          .penalty = {0.1, 0.2},
+                          .ntrials = 2};
+    PM_TRY(sample_surfaces(&s->trial, err));
+    PM_TRY(sample_surfaces(&s->accepted, err));
+    PM_TRY(sample_numbers(&s->gradient, 84, err));
+    PM_TRY(PM_NEW(s->trials, 2, err));
+    s->trials[0] = (struct pm_trial){.accepted = 1, .measure = 12.5, .radius = 0.3};
+    s->trials[1] =
+        (struct pm_trial){.iteration = 1, .ratio = -0.5, .radius = 0.1, .reason = "no gain"};
+done:
+    return status;
+}
+
+/* A record of any kind. */
+union sample {
+    struct pm_surfaces surfaces;
+    struct pm_mesh mesh;
+    struct pm_state state;
+    struct pm_work work;
+    struct pm_sens sens;
+    struct pm_step step;
+};
+
+static const char *const sample_kinds[] = {"surface", "mesh", "state", "work", "sens", "step"};
+enum { SAMPLE_KINDS = sizeof sample_kinds / sizeof sample_kinds[0] };
+
+/* Index in sample_kinds, SAMPLE_KINDS for another word. */
+static inline int sample_kind(const char *kind)
+{
+    int k = 0;
+    while (k < SAMPLE_KINDS && strcmp(kind, sample_kinds[k]) != 0)
+        k++;
+    return k;
+}
+
+static inline enum pm_status sample_make(const char *kind, union sample *r, struct pm_err *err)
+{
+    switch (sample_kind(kind)) {
+    case 0:
+        return sample_surfaces(&r->surfaces, err);
+    case 1:
+        return sample_mesh(&r->mesh, err);
+    case 2:
+        return sample_state(&r->state, err);
+    case 3:
+        return sample_work(&r->work, err);
+    case 4:
+        return sample_sens(&r->sens, err);
+    case 5:
+        return sample_step(&r->step, err);
+    default:
+        return pm_fail(err, PM_USAGE, "no kind '%s'", kind);
+    }
+}
+
+static inline enum pm_status sample_load(const char *kind, const char *path, union sample *r,
+                                         struct pm_err *err)
+{
+    switch (sample_kind(kind)) {
+    case 0:
+        return pm_surfaces_load(path, &r->surfaces, err);
+    case 1:
+        return pm_mesh_load(path, 0, &r->mesh, err);
+    case 2:
+        return pm_state_load(path, 0, &r->state, err);
+    case 3:
+        return pm_work_load(path, 0, &r->work, err);
+    case 4:
+        return pm_sens_load(path, &r->sens, err);
+    default:
+        return pm_step_load(path, &r->step, err);
+    }
+}
+
+static inline void sample_release(const char *kind, union sample *r)
+{
+    switch (sample_kind(kind)) {
+    case 0:
+        pm_surfaces_release(&r->surfaces);
+        break;
+    case 1:
+        pm_mesh_release(&r->mesh);
+        break;
+    case 2:
+        pm_state_release(&r->state);
+        break;
+    case 3:
+        pm_work_release(&r->work);
+        break;
+    case 4:
+        pm_sens_release(&r->sens);
+        break;
+    default:
+        pm_step_release(&r->step);
+    }
+}
+
+/* Writes a record (struct pm_surfaces, pm_mesh .. by kind) as a file of its own. */
 static inline enum pm_status sample_write(const char *path, const char *kind, const void *record,
                                           struct pm_err *err)
 {
     enum pm_status status;
     struct pm_h5 *f = NULL;
     const struct pm_common common = {.tool = "sample", .command = "sample"};
+    enum pm_status written = PM_USAGE;
     PM_TRY(pm_h5_create(path, kind, &common, NULL, &f, err));
-    if (strcmp(kind, "surface") == 0)
-        PM_TRY(pm_surfaces_write(f, record, err));
-    else if (strcmp(kind, "mesh") == 0)
-        PM_TRY(pm_mesh_write(f, record, err));
-    else if (strcmp(kind, "state") == 0)
-        PM_TRY(pm_state_write(f, record, err));
-    else if (strcmp(kind, "work") == 0)
-        PM_TRY(pm_work_write(f, record, err));
-    else
-        PM_TRY(pm_sens_write(f, record, err));
+    switch (sample_kind(kind)) {
+    case 0:
+        written = pm_surfaces_write(f, record, err);
+        break;
+    case 1:
+        written = pm_mesh_write(f, record, err);
+        break;
+    case 2:
+        written = pm_state_write(f, record, err);
+        break;
+    case 3:
+        written = pm_work_write(f, record, err);
+        break;
+    case 4:
+        written = pm_sens_write(f, record, err);
+        break;
+    default:
+        written = pm_step_write(f, record, err);
+    }
+    PM_TRY(written);
     PM_TRY(pm_h5_commit(f, err));
     f = NULL;
 done:

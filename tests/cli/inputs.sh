@@ -2,7 +2,7 @@
 # Bad input files: status 3, one line that names the file, no output.
 . tests/lib.sh
 
-for kind in surface mesh state work sens; do
+for kind in surface mesh state work sens step; do
     check "sample $kind" "$LIB/sample" "$kind" "$work/$kind.h5"
 done
 echo "not a case" >"$work/bad.ini"
@@ -52,4 +52,9 @@ each adjsens state /node/displacement @ "$work/work.h5"
 each adjsens work /point/J "$work/state.h5" @
 each trstep surface /surface1/phi @ "$work/work.h5"
 each trstep work /measure/value "$work/surface.h5" @
+each trstep sens /gradient/phi "$work/surface.h5" "$work/work.h5" @ @ @ @
+each trstep step /step/radius "$work/surface.h5" "$work/work.h5" --previous @
+each tetmesh mesh /mesh/x "$work/surface.h5" --previous @
+each fesolve state /node/displacement "$work/mesh.h5" --load 0 --guess @
+each wsint work /measure/orientation "$work/state.h5" --sign-from @
 finish

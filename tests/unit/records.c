@@ -146,6 +146,35 @@ static void test_work_and_sens(const char *path)
     pm_sens_release(&t);
 }
 
+static void test_step(const char *path)
+{
+    struct pm_err err = {.status = PM_OK};
+    struct pm_step a, b;
+    ok(sample_step(&a, &err) == PM_OK, "sample step %s", err.text);
+    a.trial.s[1].phi[0] += 1;
+    ok(sample_write(path, "step", &a, &err) == PM_OK, "write step %s", err.text);
+    if (!ok(pm_step_load(path, &b, &err) == PM_OK, "load step %s", err.text))
+        return;
+    ok(SAME(a.trial.s[1].phi, b.trial.s[1].phi, 3 * a.trial.s[1].n) &&
+           SAME(a.accepted.s[1].phi, b.accepted.s[1].phi, 3 * a.accepted.s[1].n) &&
+           b.trial.s[1].phi[0] == b.accepted.s[1].phi[0] + 1,
+       "trial and accepted surfaces come back");
+    ok(SAME(a.gradient, b.gradient, 84) && a.value == b.value && a.radius == b.radius &&
+           a.gain == b.gain && SAME(a.weight, b.weight, 2) && SAME(a.penalty, b.penalty, 2) &&
+           strcmp(a.verdict, b.verdict) == 0,
+       "the accepted design comes back");
+    ok(b.ntrials == 2 && b.trials[0].accepted == 1 && b.trials[0].measure == 12.5 &&
+           b.trials[0].reason[0] == '\0' && b.trials[1].iteration == 1 &&
+           b.trials[1].ratio == -0.5 && strcmp(b.trials[1].reason, "no gain") == 0,
+       "the history comes back");
+    pm_step_release(&b);
+    struct pm_surfaces s;
+    ok(pm_surfaces_load(path, &s, &err) == PM_OK && s.s[1].phi[0] == a.trial.s[1].phi[0],
+       "a step is the surfaces of its trial");
+    pm_surfaces_release(&s);
+    pm_step_release(&a);
+}
+
 int main(void)
 {
     char folder[] = "/tmp/pm-records-XXXXXX", path[64];
@@ -156,6 +185,7 @@ int main(void)
     test_mesh(path);
     test_state(path);
     test_work_and_sens(path);
+    test_step(path);
     unlink(path);
     ok(rmdir(folder) == 0, "no temporary is left");
     return tap_done();

@@ -59,56 +59,19 @@ static int mangle(const char *helper, const char *arguments)
 
 static enum pm_status load(const char *kind, const char *path, struct pm_err *err)
 {
-    enum pm_status status;
-    union {
-        struct pm_surfaces surfaces;
-        struct pm_state state;
-        struct pm_work work;
-        struct pm_sens sens;
-    } r;
-    if (strcmp(kind, "surface") == 0) {
-        status = pm_surfaces_load(path, &r.surfaces, err);
-        pm_surfaces_release(&r.surfaces);
-    } else if (strcmp(kind, "state") == 0) {
-        status = pm_state_load(path, 0, &r.state, err);
-        pm_state_release(&r.state);
-    } else if (strcmp(kind, "work") == 0) {
-        status = pm_work_load(path, 0, &r.work, err);
-        pm_work_release(&r.work);
-    } else {
-        status = pm_sens_load(path, &r.sens, err);
-        pm_sens_release(&r.sens);
-    }
+    union sample r;
+    enum pm_status status = sample_load(kind, path, &r, err);
+    sample_release(kind, &r);
     return status;
 }
 
 static enum pm_status write_sample(const char *kind, const char *path, struct pm_err *err)
 {
-    enum pm_status status;
-    union {
-        struct pm_surfaces surfaces;
-        struct pm_state state;
-        struct pm_work work;
-        struct pm_sens sens;
-    } r;
-    if (strcmp(kind, "surface") == 0) {
-        PM_TRY(sample_surfaces(&r.surfaces, err));
-        PM_TRY(sample_write(path, kind, &r, err));
-        pm_surfaces_release(&r.surfaces);
-    } else if (strcmp(kind, "state") == 0) {
-        PM_TRY(sample_state(&r.state, err));
-        PM_TRY(sample_write(path, kind, &r, err));
-        pm_state_release(&r.state);
-    } else if (strcmp(kind, "work") == 0) {
-        PM_TRY(sample_work(&r.work, err));
-        PM_TRY(sample_write(path, kind, &r, err));
-        pm_work_release(&r.work);
-    } else {
-        PM_TRY(sample_sens(&r.sens, err));
-        PM_TRY(sample_write(path, kind, &r, err));
-        pm_sens_release(&r.sens);
-    }
-done:
+    union sample r;
+    enum pm_status status = sample_make(kind, &r, err);
+    if (status == PM_OK)
+        status = sample_write(path, kind, &r, err);
+    sample_release(kind, &r);
     return status;
 }
 
@@ -130,7 +93,8 @@ static void test_damage(const char *helper, const char *kind, const char *path)
         for (int k = 0; k < 4; k++) {
             struct pm_err err = {.status = PM_OK};
             /* These sizes stand in no other item of the file. */
-            int alone = strcmp(name, "/surface1/tri") == 0 || strcmp(name, "/gradient/phi") == 0;
+            int alone = strcmp(name, "/surface1/tri") == 0 || strcmp(name, "/gradient/phi") == 0 ||
+                        strcmp(name, "/accepted/surface1/tri") == 0;
             if ((k == 1 && (item[i].shape[0] == '\0' || alone)) ||
                 (k == 3 && item[i].type != PM_TYPE_DOUBLE))
                 continue;
@@ -167,10 +131,8 @@ int main(void)
     snprintf(path, sizeof path, "%s/r.h5", folder);
     snprintf(helper, sizeof helper, "%s/tests/lib/mangle", build != NULL ? build : "build");
     test_table();
-    test_damage(helper, "surface", path);
-    test_damage(helper, "state", path);
-    test_damage(helper, "work", path);
-    test_damage(helper, "sens", path);
+    for (int k = 0; k < SAMPLE_KINDS; k++)
+        test_damage(helper, sample_kinds[k], path);
     static const char *const entries[][3] = {
         {"surface", "/surface1/type 0 2", "/surface1/type"},
         {"surface", "/surface1/d0 2 0", "expected > 0"},
@@ -188,6 +150,8 @@ int main(void)
         {"state", "/mesh/weight_col 0 28", "/mesh/weight_col"},
         {"state", "/mesh/chambers 0 3", "/mesh/chambers"},
         {"state", "/load/form 0 2", "/load/form"},
+        {"step", "/step/radius 0 0", "/step/radius"},
+        {"step", "/accepted/surface1/tri 0 -1", "/accepted/surface1/tri"},
         {"work", "/measure/orientation 0 0", "/measure/orientation"},
         {"work", "/measure/form 0 -1", "/measure/form"},
     };
