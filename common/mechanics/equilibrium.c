@@ -6,6 +6,7 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/mechanics/path.h"
 
 const struct pm_solve_options pm_solve_default = {.tolerance = 1e-8,
                                                   .first_step = 1.0 / 3,
@@ -15,6 +16,9 @@ const struct pm_solve_options pm_solve_default = {.tolerance = 1e-8,
 
 /* Tolerance of load steps on the way: they only have to stay on the path. */
 static const double path_tolerance = 1e-1;
+/* A predictor with a residual of more loads than this is shortened: beyond a few hundred the
+ * tangent was found to lose definiteness at bellows bodies (kappa = 100 mu). */
+static const double long_residual = 300.0;
 /* Below this residual the factor at hand serves for further corrections while each gains a factor
  * of 10. */
 static const double chord_residual = 1e-3;
@@ -23,11 +27,12 @@ struct solver {
     struct pm_model *m;
     const struct pm_solve_options *o;
     struct pm_solve_report *r;
-    double *p;             /* pressures of the load step (nc) */
-    double *f, *volume;    /* nodal forces (nn x 3), chamber volumes (nc) */
-    double *g, *dq, *load; /* q-vectors: residual, correction, sum_r p_r T^T dV_r at full load */
-    double *nodal;         /* (nn x 3) */
-    double *pressure;      /* MIP (ne x 4) */
+    double *p;              /* pressures of the load step (nc) */
+    double *f, *volume;     /* nodal forces (nn x 3), chamber volumes (nc) */
+    double *g, *dq;         /* q-vectors: residual, correction */
+    double *first, *second; /* derivatives of the path by the load parameter */
+    double *nodal;          /* (nn x 3) */
+    double *pressure;       /* MIP (ne x 4) */
     struct pm_config trial;
     double Pi, load_norm;
 };
@@ -73,25 +78,15 @@ static int evaluate(struct solver *s, const struct pm_config *c)
     return 1;
 }
 
-/* Generalised load at c for pressures p. */
-static enum pm_status load_at(struct solver *s, const struct pm_config *c, const double *p,
-                              double *q, struct pm_err *err)
+/* Largest generalised load of the pressures p on the undeformed state. */
+static void measure_load(struct solver *s, const struct pm_config *undeformed, const double *p)
 {
-    enum pm_status status;
-    double *one = NULL;
-    memset(s->nodal, 0, 3 * (size_t)s->m->mesh->nn * sizeof *s->nodal);
-    PM_TRY(PM_NEW(one, 3 * s->m->mesh->nn, err));
+    s->load_norm = 0.0;
     for (ptrdiff_t r = 0; r < s->m->mesh->nc; r++) {
-        if (p[r] == 0.0)
-            continue;
-        pm_model_volume_gradient(s->m, c, r, one);
-        for (ptrdiff_t k = 0; k < 3 * s->m->mesh->nn; k++)
-            s->nodal[k] += p[r] * one[k];
+        pm_model_volume_gradient(s->m, undeformed, r, s->nodal);
+        pm_model_reduce(s->m, undeformed, s->nodal, s->g);
+        s->load_norm = fmax(s->load_norm, fabs(p[r]) * norm_inf(s->g, s->m->nq));
     }
-    pm_model_reduce(s->m, c, s->nodal, q);
-done:
-    pm_free(one);
-    return status;
 }
 
 /* Moves c by a fraction of dq that lowers the potential (Armijo 1e-4), or, where rounding hides the
@@ -109,8 +104,8 @@ static enum outcome search_line(struct solver *s, struct pm_config *c, double g0
         double rounding = 1e-12 * (fabs(Pi0) + fabs(slope));
         if (s->Pi <= Pi0 + 1e-4 * alpha * slope + rounding || norm_inf(s->g, m->nq) < 0.5 * g0) {
             pm_config_copy(m, &s->trial, c);
-            pm_log(2, "load %.4f: step %.4g, residual %.2e, smallest det F %.3f", s->r->lambda, alpha,
-                   norm_inf(s->g, m->nq) / s->load_norm, s->r->min_det_F);
+            pm_log(2, "load %.4f: step %.4g, residual %.2e, smallest det F %.3f", s->r->lambda,
+                   alpha, norm_inf(s->g, m->nq) / s->load_norm, s->r->min_det_F);
             return CONVERGED;
         }
     }
@@ -142,7 +137,8 @@ done:
     return status;
 }
 
-/* Newton at the pressures s->p from c; mixed: s->pressure holds the pressures for the first tangent. */
+/* Newton at the pressures s->p from c; mixed: s->pressure holds the pressures for the first
+ * tangent. */
 static enum pm_status newton(struct solver *s, struct pm_config *c, double tolerance, int mixed,
                              enum outcome *out, struct pm_err *err)
 {
@@ -186,25 +182,43 @@ done:
     return status;
 }
 
-/* One load step from base (load parameter lambda) with the predictor `s->load`: c, or a refusal. The linear predictor
- * leaves volumetric strains whose pressures would spoil the tangent: the linearised ones are right to first order. */
+/* c = base moved by the second-order predictor of step h; the relative residual there (infinite:
+ * inverted element). */
+static double predictor(struct solver *s, const struct path *path, const struct pm_config *base,
+                        double lambda, double h, struct pm_config *c)
+{
+    set_pressure(s, path, lambda + h);
+    for (ptrdiff_t k = 0; k < s->m->nq; k++)
+        s->dq[k] = h * (s->first[k] + 0.5 * h * s->second[k]);
+    pm_model_move(s->m, base, s->dq, 1.0, c);
+    return evaluate(s, c) ? norm_inf(s->g, s->m->nq) / s->load_norm : 8.0 * long_residual;
+}
+
+/* One load step from base (load parameter lambda), at most of length h: c, or a refusal. A
+ * predictor that is too long is seen by its residual, which grows as h^3, before a factorisation is
+ * spent on it. What the predictor leaves of volumetric strain would spoil the tangent: the
+ * pressures linearised along its first order are free of it. */
 static enum pm_status load_step(struct solver *s, const struct path *path,
-                                const struct pm_config *base, double lambda, double next,
+                                const struct pm_config *base, double lambda, double *h,
                                 struct pm_config *c, enum outcome *out, struct pm_err *err)
 {
-    set_pressure(s, path, next);
+    double residual = predictor(s, path, base, lambda, *h, c);
+    while (residual > long_residual && *h > s->o->min_step) {
+        *h *= 0.9 * cbrt(long_residual / residual);
+        residual = predictor(s, path, base, lambda, *h, c);
+    }
+    double next = lambda + *h > 1.0 - 1e-9 ? 1.0 : lambda + *h;
     s->r->lambda = next;
-    pm_model_move(s->m, base, s->load, next - lambda, c);
-    pm_model_expand(s->m, base, s->load, s->nodal);
+    pm_log(2, "load %.4f: predicted, residual %.2e", next, residual);
+    pm_model_expand(s->m, base, s->first, s->nodal);
     for (ptrdiff_t k = 0; k < 3 * s->m->mesh->nn; k++)
-        s->nodal[k] *= next - lambda;
+        s->nodal[k] *= *h;
     pm_model_pressure(s->m, base, s->nodal, s->pressure);
     return newton(s, c, next < 1.0 ? path_tolerance : s->o->tolerance, 1, out, err);
 }
 
-/* Predictor at base: K^-1 T^T sum_r (to - from)_r dV_r. The factor at hand serves where it belongs
- * to the last Newton iterate of base; else it is made anew, and its failure is the end of a stable
- * branch. */
+/* Path derivatives at base. The factor at hand serves where it belongs to the last Newton iterate
+ * of base; else it is made anew, and its failure is the end of a stable branch. */
 static enum pm_status predict(struct solver *s, const struct path *path,
                               const struct pm_config *base, double lambda, int fresh,
                               enum outcome *out, struct pm_err *err)
@@ -214,24 +228,23 @@ static enum pm_status predict(struct solver *s, const struct path *path,
     int definite = 1;
     PM_TRY(PM_NEW(dp, s->m->mesh->nc, err));
     set_pressure(s, path, lambda);
-    if (!fresh) {
-        evaluate(s, base);
+    evaluate(s, base);
+    if (!fresh)
         PM_TRY(pm_model_factor(s->m, base, s->p, s->f, NULL, &definite, err));
-    }
     *out = definite ? CONVERGED : refuse(s, "the equilibrium is unstable at load", lambda);
     for (ptrdiff_t r = 0; r < s->m->mesh->nc; r++)
         dp[r] = path->to[r] - path->from[r];
-    PM_TRY(load_at(s, base, dp, s->load, err));
     if (definite)
-        PM_TRY(pm_model_solve(s->m, s->load, 1, err));
+        PM_TRY(pm_path_derivatives(s->m, base, s->p, s->f, dp, s->first, s->second, err));
 done:
     pm_free(dp);
     return status;
 }
 
-/* Continuation from the equilibrium c at path->from to path->to. After a refusal the predictor of base still holds. */
-static enum pm_status follow_path(struct solver *s, const struct path *path, int fresh, struct pm_config *c,
-                                  enum outcome *out, struct pm_err *err)
+/* Continuation from the equilibrium c at path->from to path->to. After a refusal the predictor of
+ * base still holds. */
+static enum pm_status follow_path(struct solver *s, const struct path *path, int fresh,
+                                  struct pm_config *c, enum outcome *out, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_config base = {0};
@@ -240,9 +253,9 @@ static enum pm_status follow_path(struct solver *s, const struct path *path, int
     pm_config_copy(s->m, c, &base);
     PM_TRY(predict(s, path, &base, lambda, fresh, out, err));
     while (lambda < 1.0 && *out == CONVERGED && step >= s->o->min_step) {
-        double next = lambda + step > 1.0 - 0.1 * step ? 1.0 : lambda + step;
         long before = s->r->newton_steps;
-        PM_TRY(load_step(s, path, &base, lambda, next, c, out, err));
+        step = lambda + 1.1 * step > 1.0 ? 1.0 - lambda : step;
+        PM_TRY(load_step(s, path, &base, lambda, &step, c, out, err));
         if (*out != CONVERGED) {
             s->r->backoffs++;
             step *= 0.5;
@@ -250,9 +263,9 @@ static enum pm_status follow_path(struct solver *s, const struct path *path, int
             continue;
         }
         pm_config_copy(s->m, c, &base);
-        lambda = next;
+        lambda = s->r->lambda;
         s->r->load_steps++;
-        step *= s->r->newton_steps - before <= 3 ? 1.5 : 1.0;
+        step *= s->r->newton_steps - before <= 3 ? 2.0 : 1.0;
         if (lambda < 1.0)
             PM_TRY(predict(s, path, &base, lambda, s->r->newton_steps > before, out, err));
     }
@@ -270,7 +283,8 @@ static enum pm_status allocate(struct solver *s, struct pm_err *err)
     PM_TRY(PM_NEW(s->p, mesh->nc, err));
     PM_TRY(PM_NEW(s->g, s->m->nq, err));
     PM_TRY(PM_NEW(s->dq, s->m->nq, err));
-    PM_TRY(PM_NEW(s->load, s->m->nq, err));
+    PM_TRY(PM_NEW(s->first, s->m->nq, err));
+    PM_TRY(PM_NEW(s->second, s->m->nq, err));
     PM_TRY(PM_NEW(s->nodal, 3 * mesh->nn, err));
     PM_TRY(PM_NEW(s->pressure, 4 * mesh->ne, err));
     PM_TRY(pm_config_new(s->m, &s->trial, err));
@@ -297,8 +311,9 @@ static enum pm_status finish(struct solver *s, const double *p, struct pm_config
 }
 
 /* From a guess: corrected at its own loads, then followed to p. */
-static enum pm_status start_from_guess(struct solver *s, const struct pm_guess *guess, const double *p,
-                                       struct pm_config *c, enum outcome *out, struct pm_err *err)
+static enum pm_status start_from_guess(struct solver *s, const struct pm_guess *guess,
+                                       const double *p, struct pm_config *c, enum outcome *out,
+                                       struct pm_err *err)
 {
     enum pm_status status;
     const struct path path = {guess->at, p, 1.0};
@@ -306,8 +321,9 @@ static enum pm_status start_from_guess(struct solver *s, const struct pm_guess *
     set_pressure(s, &path, 0.0);
     if (guess->pressure != NULL)
         memcpy(s->pressure, guess->pressure, 4 * (size_t)s->m->mesh->ne * sizeof *s->pressure);
-    pm_model_move(s->m, c, s->load, 0.0, c); /* places the end-effector's nodes on this mesh */
-    PM_TRY(newton(s, c, same ? s->o->tolerance : path_tolerance, guess->pressure != NULL, out, err));
+    pm_model_move(s->m, c, s->first, 0.0, c); /* places the end-effector's nodes on this mesh */
+    PM_TRY(
+        newton(s, c, same ? s->o->tolerance : path_tolerance, guess->pressure != NULL, out, err));
     if (*out == CONVERGED && !same)
         PM_TRY(follow_path(s, &path, s->r->newton_steps > 0, c, out, err));
     s->r->warm = *out == CONVERGED;
@@ -335,8 +351,7 @@ enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct 
     PM_TRY(allocate(&s, err));
     PM_TRY(PM_NEW(zero, m->mesh->nc, err));
     PM_TRY(pm_config_new(m, &undeformed, err));
-    PM_TRY(load_at(&s, &undeformed, p, s.load, err));
-    s.load_norm = norm_inf(s.load, m->nq);
+    measure_load(&s, &undeformed, p);
     if (guess != NULL && s.load_norm > 0.0)
         PM_TRY(start_from_guess(&s, guess, p, c, &out, err));
     if (out != CONVERGED) {
@@ -362,7 +377,8 @@ done:
     pm_free(s.p);
     pm_free(s.g);
     pm_free(s.dq);
-    pm_free(s.load);
+    pm_free(s.first);
+    pm_free(s.second);
     pm_free(s.nodal);
     pm_free(s.pressure);
     return status;

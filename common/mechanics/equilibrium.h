@@ -1,6 +1,6 @@
-/* Stable static equilibrium by load continuation: tangent predictor, Newton with mixed pressures
- * (MIP), line search on the potential, step halving where the factor, an inverted element or the
- * line search says no. */
+/* Stable static equilibrium by load continuation: second-order predictor, Newton with mixed
+ * pressures (MIP), line search on the potential, step halving where the factor, an inverted element
+ * or the line search says no. */
 #ifndef PM_EQUILIBRIUM_H
 #define PM_EQUILIBRIUM_H
 
@@ -32,12 +32,13 @@ struct pm_guess {
     const double *pressure; /* (ne x 4) [MPa] */
 };
 
-/* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess or NULL: c holds a
- * guess, corrected at its own loads and followed from there to p; one that fails is reported, and the path starts
- * anew from the undeformed state. PM_NUMERIC with the load reached and the last reason if there is no stable
- * equilibrium. volume (nc) and f (nn x 3): chamber volumes and nodal forces at the solution. */
+/* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess or
+ * NULL: c holds a guess, corrected at its own loads and followed from there to p; one that fails is
+ * reported, and the path starts anew from the undeformed state. PM_NUMERIC with the load reached
+ * and the last reason if there is no stable equilibrium. volume (nc) and f (nn x 3): chamber
+ * volumes and nodal forces at the solution. */
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
-                              const struct pm_guess *guess, struct pm_config *c, double *volume, double *f,
-                              struct pm_solve_report *r, struct pm_err *err);
+                              const struct pm_guess *guess, struct pm_config *c, double *volume,
+                              double *f, struct pm_solve_report *r, struct pm_err *err);
 
 #endif
