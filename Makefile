@@ -109,7 +109,7 @@ lint-text:
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
 		--suppress=missingIncludeSystem -I. -DPM_VERSION=0 common tools
 	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(TIDY_FLAGS) 2>/dev/null' sh
-	shellcheck -x $(SH_FILES)
+	shellcheck -x -S warning $(SH_FILES)
 	mandoc -Tlint -Wwarning $(wildcard man/*.[1-9])
 format: ## lay out the C files with clang-format
 	clang-format -i $(C_FILES)

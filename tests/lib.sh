@@ -8,6 +8,12 @@ BUILD=${BUILD:-build}
 BIN=$BUILD/bin
 # shellcheck disable=SC2034
 LIB=$BUILD/tests/lib
+# The tools there must be, and those there are.
+# shellcheck disable=SC2034
+mapfile -t tools < <({
+    printf '%s\n' surfgen surfremesh tetmesh fesolve adjsens wsint trstep
+    for main in tools/*/main.c; do basename "$(dirname "$main")"; done
+} | sort -u)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM

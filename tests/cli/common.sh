@@ -2,8 +2,6 @@
 # What every tool does alike: help, version, usage errors.
 . tests/lib.sh
 
-tools=(surfgen surfremesh tetmesh fesolve adjsens wsint trstep)
-
 for tool in "${tools[@]}"; do
     expect 0 "$tool --help" "$BIN/$tool" --help
     check "$tool: help on standard output" grep -q "^usage: $tool " "$work/out"

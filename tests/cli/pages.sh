@@ -2,7 +2,7 @@
 # Manual pages say what the programs do.
 . tests/lib.sh
 
-for tool in surfgen surfremesh tetmesh fesolve adjsens wsint trstep; do
+for tool in "${tools[@]}"; do
     "$BIN/$tool" --help | sed -n 's/^  \(-.,\|   \) --\([a-z-]*\).*/\2/p' | sort >"$work/help"
     sed -n 's/^\.It.* Fl -\([a-z-]*\).*/\1/p' "man/$tool.1" | sort >"$work/page"
     check "$tool: has options" test -s "$work/help"
