@@ -1,5 +1,6 @@
 #!/bin/bash
 # tetmesh: what a mesh promises, morphing, determinism, refusals of surfaces and of gmsh files.
+# shellcheck disable=SC2016,SC2317 # awk and sed programs; functions that check calls
 . tests/lib.sh
 
 out=$work/output
