@@ -7,6 +7,7 @@ static const struct pm_option OPTIONS[] = {
     {"form", 0, "FORM", "boundary or volume instead of the case's form"},
     {"sign-from", 0, "WORK.h5", "take the orientation of the first design from this file"},
     {"points", 0, NULL, "print the Gauss set of CASE.ini, tab separated; write nothing"},
+    {"show", 0, NULL, "print the result of WORK.h5; write nothing"},
     {"record-failure", 0, NULL, "a failed state gives a work file that says so"},
     {0},
 };
@@ -23,6 +24,8 @@ static enum pm_status take(void *opts, const char *name, const char *value, stru
         o->sign_from = value;
     else if (strcmp(name, "points") == 0)
         o->points = 1;
+    else if (strcmp(name, "show") == 0)
+        o->show = 1;
     else
         o->record_failure = 1;
     return PM_OK;
@@ -38,7 +41,7 @@ int main(int argc, char **argv)
     struct wsint_opts opts = {0};
     const struct pm_tool tool = {
         .name = "wsint",
-        .operands = "STATE.h5.. | CASE.ini",
+        .operands = "STATE.h5.. | CASE.ini | WORK.h5",
         .summary = "workspace measure and its derivatives from the equilibria at the Gauss points",
         .options = OPTIONS,
         .min_operands = 1,

@@ -164,6 +164,25 @@ static void summarise(const struct pm_work *w)
            w->unit, w->ng, pm_form_name((enum pm_form)w->form), w->min_det, w->max_det, error);
 }
 
+static enum pm_status show(const struct pm_common *common, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_work w = {.ng = 0};
+
+    if (common->noperands != 1 || common->output != NULL)
+        PM_TRY(pm_fail(err, PM_USAGE, "--show takes one work file and no output"));
+    PM_TRY(pm_work_load(common->operands[0], 0, &w, err));
+    printf("%s = %.6g %s (%s form, %td points)", w.name, w.value, w.unit,
+           pm_form_name((enum pm_form)w.form), w.ng);
+    if (w.quadrature_error >= 0)
+        printf(", by the other form %.6g, quadrature error %.2g %%", w.value_other,
+               100 * w.quadrature_error);
+    printf(", det J %.3g to %.3g\n", w.min_det, w.max_det);
+done:
+    pm_work_release(&w);
+    return status;
+}
+
 static enum pm_status print_points(const struct wsint_opts *opts, const struct pm_common *common,
                                    struct pm_err *err)
 {
@@ -207,6 +226,8 @@ enum pm_status wsint_run(const struct wsint_opts *opts, const struct pm_common *
     struct pm_h5 *f = NULL;
     enum pm_form form;
 
+    if (opts->show)
+        return show(common, err);
     if (opts->points)
         return print_points(opts, common, err);
     if (common->output == NULL)

@@ -14,6 +14,7 @@ struct wsint_opts {
     const char *sign_from; /* work file that holds sigma, NULL: sign of this value */
     int record_failure;
     int points; /* print the Gauss set of a case file, write nothing */
+    int show;   /* print the result of a work file, write nothing */
 };
 
 /* Reads the states (operands), writes the work file; or prints the Gauss set of a case file.

@@ -1,0 +1,30 @@
+/* Text tables for plotting programs: stdout, columns separated by blanks, polygons and curves by
+ * blank lines, surfaces by two blank lines (the `index` of gnuplot). */
+#ifndef PMPLOT_H
+#define PMPLOT_H
+
+#include "common/base/tool.h"
+#include "common/files/state.h"
+#include "common/files/surfaces.h"
+
+struct pmplot_opts {
+    int accepted; /* of a step file the accepted design, not the proposed one */
+    double y;     /* of the section plane [mm] */
+};
+
+/* Operands: WHAT FILE.. */
+enum pm_status pmplot_run(const struct pmplot_opts *opts, const struct pm_common *common,
+                          struct pm_err *err);
+
+/* surface: triangles x y z of every surface. section: closed curves x z where the plane y = const
+ * cuts them. */
+enum pm_status pmplot_surface(const struct pm_surfaces *s, struct pm_err *err);
+enum pm_status pmplot_section(const struct pm_surfaces *s, double y, struct pm_err *err);
+/* deformed: triangles x y z |u| of the outside of a state, then of each chamber. */
+void pmplot_deformed(const struct pm_state *s);
+/* workspace: the image of the edges of the actuation square in the two DoFs of the case, closed;
+ * then the given states, then their images by symmetry: U p. Between states the curve is the cubic
+ * that has their U and J. Needs states at the corners of the square, themselves or by symmetry. */
+enum pm_status pmplot_workspace(const struct pm_state *states, ptrdiff_t n, struct pm_err *err);
+
+#endif
