@@ -87,10 +87,11 @@ static void print_help(const struct pm_tool *tool, const struct option_list *l)
 
 static void print_version(const struct pm_tool *tool)
 {
-    char hdf5[32];
+    char hdf5[32], suitesparse[32];
     pm_h5_version(hdf5, sizeof hdf5);
-    printf("%s (pneumorph) %s\nHDF5 %s, GSL %s, zlib %s\n", tool->name, PM_VERSION, hdf5,
-           pm_gsl_version(), pm_zlib_version());
+    pm_suitesparse_version(suitesparse, sizeof suitesparse);
+    printf("%s (pneumorph) %s\nHDF5 %s, SuiteSparse %s, GSL %s, zlib %s\n", tool->name, PM_VERSION,
+           hdf5, suitesparse, pm_gsl_version(), pm_zlib_version());
 }
 
 /* Appends one word, its folders left out, quoted for a shell where it needs it. */
@@ -202,8 +203,8 @@ static enum pm_status parse(const struct pm_tool *tool, int argc, char **argv,
     return check_operands(tool, common, err);
 }
 
-/* OpenBLAS 0.3.21 does not know the newest processors and takes its slowest kernel (Prescott) there, four times
- * slower: name the kernel that the instruction set allows. */
+/* OpenBLAS 0.3.21 does not know the newest processors and takes its slowest kernel (Prescott)
+ * there, four times slower: name the kernel that the instruction set allows. */
 static const char *blas_kernel(void)
 {
 #if defined(__x86_64__)
