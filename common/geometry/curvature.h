@@ -1,4 +1,4 @@
-/* Differential geometry of one point of a surface and its variation [theory 6.2], from the
+/* Differential geometry of one point of a surface and its variation [model 6.2], from the
  * derivatives r_a (2 x 3) and r_ab (3 x 3: 11, 12, 22) of surface_map.h. n = r_1 x r_2 / A points
  * out of the closed surface. */
 #ifndef PM_CURVATURE_H

@@ -1,4 +1,4 @@
-/* Control points from points of a surface: iterated Tikhonov [eq 77 iterated, theory 9 step 3],
+/* Control points from points of a surface: iterated Tikhonov [paper 77 iterated, model 9 step 3],
  * psi <- argmin sum_q w_q |target_q - sum_m c_m(S_q) psi_m|^2 + alpha |psi - psi_previous|^2. */
 #ifndef PM_FIT_H
 #define PM_FIT_H

@@ -1,4 +1,4 @@
-/* Evaluation of one surface, sphere map [theory 6.1] or B-spline tube [theory 6.3], in local
+/* Evaluation of one surface, sphere map [model 6.1] or B-spline tube [model 6.3], in local
  * coordinates: at S the tangent directions are t1, t2 (t1 x t2 = outward normal of the reference
  * shape), derivatives are in normal coordinates (second derivatives of the sphere include -delta_ab
  * dr/dS.S). */
@@ -41,11 +41,11 @@ void pm_map_move(int32_t type, const double S[3], const double d[2], double out[
 /* Parameter halfway between two (start of a mid-side node), on the reference shape. */
 void pm_map_middle(int32_t type, const double a[3], const double b[3], double out[3]);
 
-/* d0 (n): chord distance to the k-th nearest other control point [eq 56]. Cost n^2. */
+/* d0 (n): chord distance to the k-th nearest other control point [paper 56]. Cost n^2. */
 enum pm_status pm_map_support(ptrdiff_t n, const double *Phi, ptrdiff_t k, double *d0,
                               struct pm_err *err);
 /* Sum of the kernels of a sphere map at S, 0 in a hole; the map is sound where it is >= 1
- * [theory 6.1]. */
+ * [model 6.1]. */
 enum pm_status pm_map_coverage(const struct pm_map *map, const double S[3], struct pm_basis *work,
                                double *Z, struct pm_err *err);
 

@@ -35,7 +35,7 @@ void pm_element_apply(const struct pm_element *el, const double *u, const double
 /* f += D3 Pi_e [v, w, .] */
 void pm_element_third(const struct pm_element *el, const double *u, const double *v,
                       const double *w, double *f);
-/* Explicit shape derivative at fixed deformed positions [theory 4.3]: D (10 x 3) += d/dX of
+/* Explicit shape derivative at fixed deformed positions [model 4.3]: D (10 x 3) += d/dX of
  *   dPi_e[g] + sum_r d2Pi_e[v_r, h_r],  v, h (n x 10 x 3). */
 void pm_element_shape(const struct pm_element *el, const double *u, const double *g, int n,
                       const double *v, const double *h, double *D);

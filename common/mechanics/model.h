@@ -1,5 +1,5 @@
 /* The assembled potential Pi(q; p, X) = strain energy - sum_r p_r V_r with a clamped base and a
- * rigid end-effector [theory 2, 3], and all its derivatives. Unknowns q: 3 per free node in
+ * rigid end-effector [model 2, 3], and all its derivatives. Unknowns q: 3 per free node in
  * elimination order, then the end-effector's t (3) and theta (3) if the mesh has a tip. Pressures
  * here are in MPa. Components of free nodes on symmetry planes, and end-effector DoFs that a plane
  * excludes, are fixed (their equations are unity). Directions: "q-vector" (nq); "nodal" (nn x 3).
