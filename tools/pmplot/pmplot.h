@@ -1,5 +1,7 @@
-/* Text tables for plotting programs: stdout, columns separated by blanks, polygons and curves by
- * blank lines, surfaces by two blank lines (the `index` of gnuplot). */
+/* Text tables for plotting programs on stdout, columns separated by blanks. Triangles are written
+ * as grids of 2 x 2 points (the last corner twice) between two blank lines, as gnuplot wants them
+ * to colour each one; `light` is the cosine between the normal and the direction of a fixed lamp.
+ */
 #ifndef PMPLOT_H
 #define PMPLOT_H
 
@@ -16,11 +18,11 @@ struct pmplot_opts {
 enum pm_status pmplot_run(const struct pmplot_opts *opts, const struct pm_common *common,
                           struct pm_err *err);
 
-/* surface: triangles x y z of every surface. section: closed curves x z where the plane y = const
+/* surface: triangles x y z 0 light surface. section: closed curves x z where the plane y = const
  * cuts them. */
 enum pm_status pmplot_surface(const struct pm_surfaces *s, struct pm_err *err);
 enum pm_status pmplot_section(const struct pm_surfaces *s, double y, struct pm_err *err);
-/* deformed: triangles x y z |u| of the outside of a state, then of each chamber. */
+/* deformed: triangles x y z |u| light surface of a state: 0 outside, 1.. chambers. */
 void pmplot_deformed(const struct pm_state *s);
 /* workspace: the image of the edges of the actuation square in the two DoFs of the case, closed;
  * then the given states, then their images by symmetry: U p. Between states the curve is the cubic

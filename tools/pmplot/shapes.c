@@ -1,56 +1,179 @@
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "common/base/memory.h"
 #include "common/geometry/surface_map.h"
 #include "tools/pmplot/pmplot.h"
 
-/* Points of surface k at the parameters of its control points, and its triangles; the tube gets a
- * fan over each planar rim, so that every surface is closed. */
+enum { LEVELS = 1 };
+/* Towards the light: above, in front, to the right. */
+static const double LIGHT[3] = {0.41, -0.75, 0.52};
+
+/* A triangulated surface: the triangles of control points, each cut in 4^levels on the true
+ * surface. The tube gets a fan over each planar rim, so that every surface is closed. */
 struct shape {
     ptrdiff_t n, nt;
+    double *S;    /* parameters (n x 3) */
     double *x;    /* (n x 3) [mm] */
     int32_t *tri; /* (nt x 3) */
 };
 
+struct side {
+    int32_t low, high; /* nodes */
+    ptrdiff_t corner;  /* 3 t + v: the side from corner v of triangle t to the next one */
+};
+
+static void normal(double x[3][3], double n[3])
+{
+    double a[3], b[3];
+    for (int k = 0; k < 3; k++) {
+        a[k] = x[1][k] - x[0][k];
+        b[k] = x[2][k] - x[0][k];
+    }
+    for (int k = 0; k < 3; k++)
+        n[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+    const double length = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    for (int k = 0; k < 3 && length > 0; k++)
+        n[k] /= length;
+}
+
+/* One triangle as a grid of 2 x 2 points with the last corner twice, which gnuplot colours by
+ * column (pm3d). */
+static void print_facet(double x[3][3], const double value[3], ptrdiff_t surface)
+{
+    static const int corner[4] = {0, 1, 2, 2};
+    double n[3];
+
+    normal(x, n);
+    const double light = n[0] * LIGHT[0] + n[1] * LIGHT[1] + n[2] * LIGHT[2];
+    for (int k = 0; k < 4; k++) {
+        const int v = corner[k];
+        printf("%.3f %.3f %.3f %.4g %.3f %td\n%s", x[v][0], x[v][1], x[v][2], value[v], light,
+               surface,
+               k == 1   ? "\n"
+               : k == 3 ? "\n\n"
+                        : "");
+    }
+}
+
 static void shape_release(struct shape *h)
 {
+    pm_free(h->S);
     pm_free(h->x);
     pm_free(h->tri);
     *h = (struct shape){0};
 }
 
-static void add_fans(const struct pm_surface *s, struct shape *h)
+static int compare_sides(const void *a, const void *b)
 {
+    const struct side *p = a, *q = b;
+    const ptrdiff_t d = p->low != q->low     ? p->low - q->low
+                        : p->high != q->high ? p->high - q->high
+                                             : p->corner - q->corner;
+    return (d > 0) - (d < 0);
+}
+
+/* Cuts every triangle in four; neighbours share the new points. */
+static enum pm_status refine(int32_t type, struct shape *h, struct pm_err *err)
+{
+    enum pm_status status;
+    struct side *sides = NULL;
+    int32_t *middle = NULL, *tri = NULL;
+    double *S = NULL;
+    const ptrdiff_t ns = 3 * h->nt;
+
+    PM_TRY(PM_NEW(sides, ns, err));
+    PM_TRY(PM_NEW(middle, ns, err));
+    PM_TRY(PM_NEW(tri, 4 * ns, err));
+    PM_TRY(PM_NEW(S, 3 * (h->n + ns), err));
+    memcpy(S, h->S, (size_t)(3 * h->n) * sizeof *S);
+    for (ptrdiff_t c = 0; c < ns; c++) {
+        const int32_t i = h->tri[c], j = h->tri[c - c % 3 + (c + 1) % 3];
+        sides[c] = (struct side){.low = i < j ? i : j, .high = i < j ? j : i, .corner = c};
+    }
+    qsort(sides, (size_t)ns, sizeof *sides, compare_sides);
+    for (ptrdiff_t k = 0; k < ns; k++) {
+        const int fresh =
+            k == 0 || sides[k].low != sides[k - 1].low || sides[k].high != sides[k - 1].high;
+        if (fresh)
+            pm_map_middle(type, S + 3 * sides[k].low, S + 3 * sides[k].high, S + 3 * h->n++);
+        middle[sides[k].corner] = (int32_t)(h->n - 1);
+    }
+    for (ptrdiff_t t = 0; t < h->nt; t++) {
+        const int32_t *v = h->tri + 3 * t, *m = middle + 3 * t;
+        const int32_t parts[12] = {v[0], m[0], m[2], m[0], v[1], m[1],
+                                   m[2], m[1], v[2], m[0], m[1], m[2]};
+        memcpy(tri + 12 * t, parts, sizeof parts);
+    }
+    pm_free(h->S);
+    pm_free(h->tri);
+    h->S = S;
+    h->tri = tri;
+    h->nt *= 4;
+    S = NULL;
+    tri = NULL;
+done:
+    pm_free(sides);
+    pm_free(middle);
+    pm_free(S);
+    pm_free(tri);
+    return status;
+}
+
+/* Nodes of the planar rims, v = 0 and v = 1, lie on the outer side of one triangle each: the fan
+ * takes those. */
+static void add_fans(struct shape *h)
+{
+    const ptrdiff_t nt = h->nt;
     for (int end = 0; end < 2; end++) {
-        const ptrdiff_t row = end == 0 ? 0 : s->nu * (s->nv - 1), centre = h->n++;
-        for (ptrdiff_t a = 0; a < s->nu; a++) {
-            const int32_t i = (int32_t)(row + a), j = (int32_t)(row + (a + 1) % s->nu);
-            const int32_t fan[3] = {(int32_t)centre, end == 0 ? j : i, end == 0 ? i : j};
+        const ptrdiff_t centre = h->n++;
+        double count = 0;
+        for (ptrdiff_t c = 0; c < 3 * nt; c++) {
+            const int32_t i = h->tri[c], j = h->tri[c - c % 3 + (c + 1) % 3];
+            if (h->S[3 * i + 2] != end || h->S[3 * j + 2] != end)
+                continue;
+            const int32_t fan[3] = {(int32_t)centre, j, i};
             memcpy(h->tri + 3 * h->nt++, fan, sizeof fan);
             for (int k = 0; k < 3; k++)
-                h->x[3 * centre + k] += h->x[3 * i + k] / (double)s->nu;
+                h->x[3 * centre + k] += h->x[3 * i + k];
+            count++;
         }
+        for (int k = 0; k < 3 && count > 0; k++)
+            h->x[3 * centre + k] /= count;
     }
 }
 
-static enum pm_status make_shape(const struct pm_surface *s, struct shape *h, struct pm_err *err)
+static enum pm_status make_shape(const struct pm_surface *s, int levels, struct shape *h,
+                                 struct pm_err *err)
 {
     enum pm_status status;
     struct pm_map *map = NULL;
     struct pm_basis work = {0};
+    int32_t *grown;
 
     PM_TRY(pm_map_new(s, &map, err));
-    PM_TRY(PM_NEW(h->x, 3 * (s->n + 2), err));
-    PM_TRY(PM_NEW(h->tri, 3 * (s->nt + 2 * s->nu), err));
+    PM_TRY(PM_NEW(h->S, 3 * s->n, err));
+    PM_TRY(PM_NEW(h->tri, 3 * s->nt, err));
     h->n = s->n;
     h->nt = s->nt;
-    for (ptrdiff_t m = 0; m < s->n; m++)
-        PM_TRY(pm_map_point(map, s->phi, s->Phi + 3 * m, &work, h->x + 3 * m, NULL, NULL, err));
+    memcpy(h->S, s->Phi, (size_t)(3 * s->n) * sizeof *h->S);
     memcpy(h->tri, s->tri, (size_t)(3 * s->nt) * sizeof *h->tri);
-    if (s->type == PM_SURFACE_BSPLINE)
-        add_fans(s, h);
+    for (int l = 0; l < levels; l++)
+        PM_TRY(refine(s->type, h, err));
+    PM_TRY(PM_NEW(h->x, 3 * (h->n + 2), err));
+    for (ptrdiff_t m = 0; m < h->n; m++)
+        PM_TRY(pm_map_point(map, s->phi, h->S + 3 * m, &work, h->x + 3 * m, NULL, NULL, err));
+    if (s->type == PM_SURFACE_BSPLINE) {
+        grown = pm_realloc(h->tri, 3 * (h->nt + 2 * (s->nu << levels)), sizeof *grown, err);
+        if (grown == NULL) {
+            status = PM_SYSTEM;
+            goto done;
+        }
+        h->tri = grown;
+        add_fans(h);
+    }
 done:
     pm_map_free(map);
     pm_basis_release(&work);
@@ -62,17 +185,16 @@ enum pm_status pmplot_surface(const struct pm_surfaces *s, struct pm_err *err)
     enum pm_status status = PM_OK;
     struct shape h = {0};
 
+    puts("# x y z [mm] 0 light surface");
     for (ptrdiff_t k = 0; k < s->ns; k++) {
-        PM_TRY(make_shape(&s->s[k], &h, err));
-        printf("# surface %td: x y z [mm]\n", k);
+        PM_TRY(make_shape(&s->s[k], LEVELS, &h, err));
         for (ptrdiff_t t = 0; t < h.nt; t++) {
-            for (int v = 0; v < 3; v++) {
-                const double *x = h.x + 3 * h.tri[3 * t + v];
-                printf("%.4f %.4f %.4f\n", x[0], x[1], x[2]);
-            }
-            puts("");
+            const double none[3] = {0, 0, 0};
+            double x[3][3];
+            for (int v = 0; v < 3; v++)
+                memcpy(x[v], h.x + 3 * h.tri[3 * t + v], sizeof x[v]);
+            print_facet(x, none, k);
         }
-        puts("");
         shape_release(&h);
     }
 done:
@@ -144,7 +266,7 @@ enum pm_status pmplot_section(const struct pm_surfaces *s, double y, struct pm_e
     struct cut *cuts = NULL;
 
     for (ptrdiff_t k = 0; k < s->ns; k++) {
-        PM_TRY(make_shape(&s->s[k], &h, err));
+        PM_TRY(make_shape(&s->s[k], LEVELS, &h, err));
         PM_TRY(PM_NEW(cuts, h.nt, err));
         printf("# surface %td: x z [mm]\n", k);
         print_loops(cuts, cut_shape(&h, y, cuts));
@@ -169,22 +291,22 @@ static void print_faces(const struct pm_state *s, int chamber)
         if (chamber > 0 ? tag != chamber : tag > 0)
             continue;
         for (int p = 0; p < 4; p++) {
+            double x[3][3], size[3];
             for (int v = 0; v < 3; v++) {
                 const ptrdiff_t a = m->tri[6 * f + part[p][v]];
-                const double *x = m->x + 3 * a, *u = s->u + 3 * a;
-                printf("%.4f %.4f %.4f %.4f\n", x[0] + u[0], x[1] + u[1], x[2] + u[2],
-                       sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+                const double *u = s->u + 3 * a;
+                for (int k = 0; k < 3; k++)
+                    x[v][k] = m->x[3 * a + k] + u[k];
+                size[v] = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
             }
-            puts("");
+            print_facet(x, size, chamber);
         }
     }
-    puts("");
 }
 
 void pmplot_deformed(const struct pm_state *s)
 {
-    for (int k = 0; k <= s->mesh.nc; k++) {
-        printf("# %s %d: x y z |u| [mm]\n", k == 0 ? "outside" : "chamber", k);
+    puts("# x y z |u| [mm] light surface");
+    for (int k = 0; k <= s->mesh.nc; k++)
         print_faces(s, k);
-    }
 }
