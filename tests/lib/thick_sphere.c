@@ -40,7 +40,8 @@ static int middle(struct octant *o, int a, int b)
         if (o->ends[k][0] == low && o->ends[k][1] == high)
             return k;
     const int p = low % o->nd, q = high % o->nd;
-    const double r = 1 + 0.5 * (low / o->nd + high / o->nd) / o->m;
+    const int layers = low / o->nd + high / o->nd;
+    const double r = 1 + 0.5 * layers / o->m;
     double v[3], l = 0;
     for (int i = 0; i < 3; i++) {
         v[i] = o->dir[p][i] + o->dir[q][i];
@@ -229,15 +230,15 @@ static void write_41(const struct octant *o, FILE *f)
 static int write_octant(int n, int m, const char *format, const char *path)
 {
     static struct octant o;
-    const int prisms = n * n * m;
+    const size_t side = (size_t)n, layers = (size_t)m;
     o.n = n;
     o.m = m;
     o.binary = strcmp(format, "2.2b") == 0;
     o.corners = strcmp(format, "linear") == 0 ? 4 : 10;
     o.x = calloc(MAX_NODES, sizeof *o.x);
     o.ends = calloc(MAX_NODES, sizeof *o.ends);
-    o.tet = calloc((size_t)(3 * prisms), sizeof *o.tet);
-    o.tri = calloc((size_t)(2 * n * n + 6 * n * m), sizeof *o.tri);
+    o.tet = calloc(3 * side * side * layers, sizeof *o.tet);
+    o.tri = calloc(2 * side * side + 6 * side * layers, sizeof *o.tri);
     FILE *f = fopen(path, "wb");
     if (n < 1 || n > MAX_SIDE || o.x == NULL || o.ends == NULL || o.tet == NULL || o.tri == NULL ||
         f == NULL)

@@ -91,7 +91,7 @@ static void check_sphere(const struct pm_surface *s, double size, struct pm_err 
     const struct pm_remesh_opts o = {
         .size = size, .size_min = size / 3, .crest = 1.2, .growth = 0.35, .sweeps = 8};
     struct pm_patch p = {0};
-    struct figures f;
+    struct figures f = {0};
     struct pm_contact c;
     if (!ok(pm_remesh(s, 1, &o, &p, err) == PM_OK && measure(s, &p, &f, err) == PM_OK,
             "size %g: remeshed", size))
@@ -118,7 +118,7 @@ static void check_tube(const struct pm_surface *s, double R, double H, struct pm
     const struct pm_remesh_opts o = {
         .size = 4, .size_min = 2, .crest = 1.2, .growth = 0.35, .sweeps = 8};
     struct pm_patch p = {0};
-    struct figures f;
+    struct figures f = {0};
     ptrdiff_t rim[2] = {0}, wrong = 0;
     double off = 0;
     if (!ok(pm_remesh(s, 0, &o, &p, err) == PM_OK && measure(s, &p, &f, err) == PM_OK,

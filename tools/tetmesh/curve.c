@@ -18,18 +18,18 @@ struct curving {
     const struct pm_shell *shell;
     struct pm_mesh *m;
     struct pm_edges edges;
-    ptrdiff_t nv;        /* vertices; mid-side nodes follow in the order of their edges */
-    int32_t *owner;      /* surface of an edge, -1 inside the solid or a cap (edges.n) */
-    double *straight;    /* straight node positions (nn x 3) [mm] */
-    double *shift;       /* full displacement from there (nn x 3) [mm] */
-    double *t;           /* its factor (nn) */
-    struct pm_map **map; /* (ns) */
+    ptrdiff_t nv;     /* vertices; mid-side nodes follow in the order of their edges */
+    int32_t *owner;   /* surface of an edge, -1 inside the solid or a cap (edges.n) */
+    double *straight; /* straight node positions (nn x 3) [mm] */
+    double *shift;    /* full displacement from there (nn x 3) [mm] */
+    double *t;        /* its factor (nn) */
+    struct pm_map *map[PM_MAX_CHAMBERS + 1];
     struct pm_basis basis;
 };
 
 static void release(struct curving *c)
 {
-    for (ptrdiff_t k = 0; c->map != NULL && k < c->s->ns; k++)
+    for (ptrdiff_t k = 0; k < c->s->ns; k++)
         pm_map_free(c->map[k]);
     pm_edges_release(&c->edges);
     pm_basis_release(&c->basis);
@@ -37,7 +37,6 @@ static void release(struct curving *c)
     pm_free(c->straight);
     pm_free(c->shift);
     pm_free(c->t);
-    pm_free(c->map);
 }
 
 /* Node of the middle of (a, b). */
@@ -277,7 +276,7 @@ static enum pm_status weigh(struct curving *c, struct pm_err *err)
     m->N = c->s->offset[c->s->ns];
     PM_TRY(pm_weights_init(&w, c->s, m->nn, err));
     for (ptrdiff_t n = 0; n < m->nn; n++) {
-        if (m->surface[n] >= 0 && n < c->nv) {
+        if (n < c->nv && m->surface[n] >= 0) {
             PM_TRY(pm_weights_add(&w, c->map[m->surface[n]], m->surface[n], m->S + 3 * n, 1, err));
         } else if (m->surface[n] >= 0) {
             const int32_t ends[2] = {c->edges.low[n - c->nv], c->edges.high[n - c->nv]};
@@ -304,7 +303,6 @@ enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell 
     double mean_ratio;
     *r = (struct pm_curve_report){0};
     m->nc = s->ns - 1;
-    PM_TRY(PM_NEW(c.map, s->ns, err));
     for (ptrdiff_t k = 0; k < s->ns; k++)
         PM_TRY(pm_map_new(&s->s[k], &c.map[k], err));
     PM_TRY(pm_edges_new(tetra->nn, tetra->ne, tetra->tet, &c.edges, err));

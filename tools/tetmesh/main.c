@@ -61,7 +61,7 @@ static enum pm_status option(void *data, const char *name, const char *value, st
             return positive(name, value, simple[k].number, err);
         if (simple[k].text != NULL)
             *simple[k].text = value;
-        else
+        else if (simple[k].flag != NULL)
             *simple[k].flag = 1;
         return PM_OK;
     }

@@ -141,7 +141,7 @@ static int corner(const int32_t v[4], int32_t a)
  * pass or long. */
 static int find_ring(const struct work *w, struct ring *r)
 {
-    int32_t from[MAX_RING], to[MAX_RING], tet[MAX_RING];
+    int32_t from[MAX_RING] = {0}, to[MAX_RING] = {0}, tet[MAX_RING] = {0};
     int n = 0;
     for (ptrdiff_t k = w->ptr[r->C]; k < w->ptr[r->C + 1]; k++) {
         const int32_t e = w->list[k], *v = w->t->tet + 4 * (ptrdiff_t)e;
@@ -185,7 +185,7 @@ static int find_ring(const struct work *w, struct ring *r)
 /* Klincsek: best triangulation of the ring's polygon by the worst of its tetrahedra. */
 static double best_triangulation(const struct work *w, struct ring *r)
 {
-    double q[MAX_RING][MAX_RING];
+    double q[MAX_RING][MAX_RING] = {{0}};
     for (int i = r->n - 2; i >= 0; i--) {
         q[i][i + 1] = INFINITY;
         for (int j = i + 2; j < r->n; j++) {
@@ -317,8 +317,8 @@ enum pm_status pm_split_two_faces(const struct pm_shell *shell, struct pm_tetra 
     enum pm_status status = PM_OK;
     struct work w = {.t = t};
     PM_TRY(prepare(&w, shell, err));
-    for (int pass = 0, changed = 1; pass < PASSES && changed; pass++) {
-        changed = 0;
+    int changed = 1;
+    for (int pass = 0; pass < PASSES && changed; pass++) {
         *left = 0;
         PM_TRY(adjacency(&w, err));
         const ptrdiff_t before = t->ne;

@@ -1,6 +1,7 @@
 /* The only user of gmshc.h. */
 #include "tools/tetmesh/volume_gmsh.h"
 
+#include <assert.h>
 #include <errno.h>
 #include <gmshc.h>
 #include <math.h>
@@ -110,6 +111,7 @@ static enum pm_status get_elements(int type, int corners, const int32_t *place, 
 {
     enum pm_status status = PM_OK;
     size_t *element = NULL, ne = 0, *node = NULL, nn = 0;
+    assert(place != NULL);
     GMSH(gmshModelMeshGetElementsByType(type, &element, &ne, &node, &nn, -1, 0, 1, &ierr),
          "no elements");
     if (ne == 0 || nn != ne * (size_t)corners)
@@ -348,9 +350,9 @@ static enum pm_status take_surface(struct reading *r, const int *type, size_t nt
     for (size_t k = 0; k < ntypes; k++) {
         const size_t corners = type[k] == GMSH_TRIANGLE ? 3 : type[k] == GMSH_TRIANGLE_6 ? 6 : 0;
         if (corners == 0)
-            PM_TRY(pm_fail(err, PM_INPUT,
+            return pm_fail(err, PM_INPUT,
                            "group '%s' holds elements of gmsh type %d, expected triangles",
-                           r->name[r->ng], type[k]));
+                           r->name[r->ng], type[k]);
         for (size_t t = 0; t < n[k] / corners; t++) {
             PM_TRY(append(&r->tri, node[k] + corners * t, 3, err));
             PM_TRY(append(&r->group, &group, 1, err));

@@ -131,14 +131,13 @@ enum pm_status pm_weights_same(const struct pm_mesh *m, const struct pm_surfaces
                                struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_map **map = NULL;
+    struct pm_map *map[PM_MAX_CHAMBERS + 1] = {NULL};
     struct pm_basis b = {0};
     uint8_t *vertex = NULL;
     double *dense = NULL;
     *same = m->N == s->offset[s->ns] && m->nc == s->ns - 1;
     if (!*same)
         return PM_OK;
-    PM_TRY(PM_NEW(map, s->ns, err));
     PM_TRY(PM_NEW(vertex, m->nn, err));
     PM_TRY(PM_NEW(dense, m->N, err));
     for (ptrdiff_t k = 0; k < s->ns; k++)
@@ -154,10 +153,9 @@ enum pm_status pm_weights_same(const struct pm_mesh *m, const struct pm_surfaces
                 row_error(m, a, s->offset[k], &b, dense) <= 1e-12;
     }
 done:
-    for (ptrdiff_t k = 0; map != NULL && k < s->ns; k++)
+    for (ptrdiff_t k = 0; k < s->ns; k++)
         pm_map_free(map[k]);
     pm_basis_release(&b);
-    pm_free(map);
     pm_free(vertex);
     pm_free(dense);
     return status;
