@@ -8,6 +8,7 @@
 #include "common/mechanics/extension.h"
 #include "tools/tetmesh/curve.h"
 #include "tools/tetmesh/import_msh.h"
+#include "tools/tetmesh/redamp.h"
 #include "tools/tetmesh/shell.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/volume_gmsh.h"
@@ -16,6 +17,8 @@
 /* What a morphed mesh must keep: half of the smallest scaled Jacobian of a new one, and a mean
  * ratio of the straight tetrahedra (0.3 or more in new ones). */
 static const double min_scaled = 0.1, min_mean_ratio = 0.1;
+/* A mesh below min_scaled is damped to this, so that it bears a further step. */
+static const double redamp_scaled = 0.15;
 
 static enum pm_status generate(const struct pm_surfaces *s, double size, double timeout,
                                struct pm_mesh *m, struct pm_err *err)
@@ -59,16 +62,22 @@ static enum pm_status morph(const struct pm_surfaces *s, struct pm_mesh *m, int 
     enum pm_status status = PM_OK;
     struct pm_extension *ext = NULL;
     double *phi = NULL, scaled, mean_ratio;
+    ptrdiff_t damped = 0;
     PM_TRY(PM_NEW(phi, 3 * m->N, err));
     pm_surfaces_gather(s, phi);
     PM_TRY(pm_extension_new(m, &ext, err));
     PM_TRY(pm_mesh_morph(m, ext, phi, err));
     pm_curve_quality(m, m->x, &scaled, &mean_ratio);
+    if (scaled < min_scaled && mean_ratio >= min_mean_ratio) {
+        PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, &damped, err));
+        pm_curve_quality(m, m->x, &scaled, &mean_ratio);
+    }
     m->min_jacobian = scaled;
     m->origin = PM_ORIGIN_MORPHED;
     *good = scaled >= min_scaled && mean_ratio >= min_mean_ratio;
-    pm_log(*good ? 1 : 0, "previous mesh %s: scaled Jacobian %.3f, mean ratio %.3f",
-           *good ? "morphed" : "given up", scaled, mean_ratio);
+    pm_log(*good ? 1 : 0,
+           "previous mesh %s: scaled Jacobian %.3f, mean ratio %.3f, %td mid-side nodes damped",
+           *good ? "morphed" : "given up", scaled, mean_ratio, damped);
 done:
     pm_extension_free(ext);
     pm_free(phi);
