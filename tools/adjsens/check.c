@@ -138,11 +138,12 @@ static enum pm_status prepare(struct adjsens_point *pt, struct probe *pr, struct
     struct pm_load *set = NULL;
     ptrdiff_t n;
     PM_TRY(pm_load_set(&pt->state.mesh.pcase, (enum pm_form)pt->state.form, &set, &n, err));
-    if (pt->state.load >= n)
+    if (pt->state.load < 0 || pt->state.load >= n) {
         status = pm_fail(err, PM_INPUT, "the state's load %lld is not in its Gauss set",
                          (long long)pt->state.load);
-    else
-        pr->load = set[pt->state.load];
+        goto done;
+    }
+    pr->load = set[pt->state.load];
     pr->sigma_weight = pt->work.orientation * pr->load.weight;
     PM_TRY(PM_NEW(pr->x0, 3 * pt->state.mesh.nn, err));
     PM_TRY(PM_NEW(pr->dx, 3 * pt->state.mesh.nn, err));

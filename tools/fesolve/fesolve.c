@@ -56,7 +56,8 @@ struct guess {
 };
 
 /* Takes displacements, loads and element pressures of the guess into c and g. */
-static enum pm_status take_guess(const struct pm_state *from, struct pm_config *c, struct guess *g, struct pm_err *err)
+static enum pm_status take_guess(const struct pm_state *from, struct pm_config *c, struct guess *g,
+                                 struct pm_err *err)
 {
     enum pm_status status;
     const struct pm_mesh *mesh = &from->mesh;
@@ -78,8 +79,8 @@ done:
     return status;
 }
 
-static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c, struct guess *g,
-                                 struct pm_err *err)
+static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c,
+                                 struct guess *g, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_state from = {0};
@@ -87,7 +88,9 @@ static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, s
     if (from.failure[0] != '\0')
         pm_warn("guess '%s' records a failure: starting from the undeformed state", path);
     else if (!same_connectivity(&from.mesh, mesh))
-        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed state", path);
+        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed "
+                "state",
+                path);
     else
         PM_TRY(take_guess(&from, c, g, err));
 done:
@@ -138,8 +141,8 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
         p[i] = s->pressure[i] * m->law.mu;
     if (o->guess != NULL)
         PM_TRY(load_guess(o->guess, &s->mesh, &c, &g, err));
-    PM_TRY(pm_equilibrium(m, p, &options, g.usable ? &(struct pm_guess){g.at, g.pressure} : NULL, &c, s->volume, f, &r,
-                          err));
+    PM_TRY(pm_equilibrium(m, p, &options, g.usable ? &(struct pm_guess){g.at, g.pressure} : NULL,
+                          &c, s->volume, f, &r, err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
     reaction(m, &c, f, s->reaction);
     memcpy(s->U, c.U, sizeof s->U);
