@@ -1,25 +1,26 @@
 # The optimisation loop. One folder per iteration, one file per stage, one target per file:
 #
-#   make -j2 optimize CASE=data/cases/2A0R2T.ini RUN=run/NAME [SIZE=MM] [ITERATIONS=N]
+#   make -j2 optimize CASE=data/cases/2A0R2T.ini RUN=run/NAME [SIZE=MM] [SET='section.key=value ..'] [ITERATIONS=N]
 #   make -j2 it007 RUN=run/NAME            up to one iteration
 #   make -j2 RUN=run/NAME ITER=it007 run/NAME/it007/work.h5    one file of one iteration
 #
-# RUN/case.ini is the case of the run (CASE with the mesh size SIZE). A stopped run goes on where it was: files appear
+# RUN/case.ini is the case of the run (CASE with the lines of SET replaced; SIZE is short for mesh.size). A stopped run goes on where it was: files appear
 # whole or not at all, and nothing is made twice. LAUNCH is put before the heavy stages, for instance
 # LAUNCH='srun -n1 -c1'. pipelines/optimize.sh walks through the iterations and ends at the verdict of trstep.
 
 RUN ?=
 CASE ?=
 SIZE ?=
+SET ?=
 ITERATIONS ?=
 ITER ?=
 LAUNCH ?=
 BIN := $(abspath $B)/bin
 OPTIMISERS := $(addprefix $B/bin/,surfgen surfremesh tetmesh fesolve wsint adjsens trstep)
 
-WALK = BIN='$(BIN)' MAKE='$(MAKE)' pipelines/optimize.sh '$(RUN)' '$(CASE)' '$(SIZE)'
+WALK = BIN='$(BIN)' MAKE='$(MAKE)' pipelines/optimize.sh '$(RUN)' '$(CASE)' '$(if $(SIZE),mesh.size=$(SIZE)) $(SET)'
 .PHONY: optimize
-optimize: $(OPTIMISERS) ## optimise a design: CASE=data/cases/NAME.ini RUN=run/NAME [SIZE=MM] [ITERATIONS=N] [LAUNCH=..]
+optimize: $(OPTIMISERS) ## optimise a design: CASE=data/cases/NAME.ini RUN=run/NAME [SIZE=MM] [SET=..] [ITERATIONS=N] [LAUNCH=..]
 	+@$(WALK) '$(ITERATIONS)'
 
 RUN_TO := $(filter it0% it1% it2% it3% it4% it5% it6% it7% it8% it9%,$(MAKECMDGOALS))

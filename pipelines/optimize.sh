@@ -1,8 +1,8 @@
 #!/bin/bash
-# optimize.sh RUN CASE SIZE ITERATIONS: walks through the iterations of a run until trstep says converged or stalled, or
+# optimize.sh RUN CASE SETTINGS ITERATIONS: walks through the iterations of a run until trstep says converged or stalled, or
 # iteration ITERATIONS is done (default: max_iterations of the case). RUN/history.tsv holds one row per trial.
 set -eu
-run=$1 case=$2 size=$3 last=$4
+run=$1 case=$2 settings=$3 last=$4
 
 fail() {
     echo "optimize: $1" >&2
@@ -13,15 +13,20 @@ fail() {
 mkdir -p "$run"
 if [ -n "$case" ]; then
     [ -r "$case" ] || fail "cannot read '$case'"
-    awk -v size="$size" '/^\[/ { section = $0 } section == "[mesh]" && /^size/ && size != "" { $0 = "size = " size } { print }' \
-        "$case" >"$run/case.new"
+    # SETTINGS "section.key=value ..": those lines of the case replaced; each must be there.
+    awk -v settings="$settings" 'BEGIN { n = split(settings, list, " "); for (i = 1; i <= n; i++) { split(list[i], kv, "="); value[kv[1]] = kv[2] } }
+        /^\[/ { section = $0; gsub(/[][ ]/, "", section) }
+        { key = $1; sub(/=.*/, "", key); key = section "." key }
+        key in value { $0 = $1 " = " value[key]; delete value[key] } { print }
+        END { for (k in value) { print "optimize: the case has no \047" k "\047 to set" > "/dev/stderr"; bad = 2 } exit bad }' \
+        "$case" >"$run/case.new" || { rm -f "$run/case.new"; exit 2; }
     if [ ! -e "$run/case.ini" ]; then
         mv "$run/case.new" "$run/case.ini"
     elif cmp -s "$run/case.new" "$run/case.ini"; then
         rm "$run/case.new"
     else
         rm "$run/case.new"
-        fail "'$run' was started with another case or mesh size, expected that of '$run/case.ini'"
+        fail "'$run' was started with another case or settings, expected that of '$run/case.ini'"
     fi
 fi
 [ -r "$run/case.ini" ] || fail "'$run' has no case, expected CASE=data/cases/NAME.ini"
@@ -32,8 +37,8 @@ fi
 for ((n = 0; n <= 10#$last; n++)); do
     iteration=$(printf 'it%03d' "$n")
     step=$run/$iteration/step.h5
-    if [ ! -e "$step" ]; then
-        "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$step"
+    [ -e "$step" ] || "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$step"
+    if [ ! "$run/history.tsv" -nt "$step" ] && [ ! -e "$run/$(printf 'it%03d' $((n + 1)))/step.h5" ]; then
         "$BIN/trstep" --history "$step" >"$run/history.new"
         mv "$run/history.new" "$run/history.tsv"
         awk -F '\t' -v it="$iteration" 'END { printf "%s %s: measure %s, ratio %s, radius %s mm, step %s mm, violations %s %s%s\n",
