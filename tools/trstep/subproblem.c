@@ -91,23 +91,44 @@ static void bound_step(const struct subproblem *s, double *step)
         step[i] *= s->radius / norm;
 }
 
+/* Interpolation cannot bracket where a step folds a surface (infinite curvature); halving survives
+ * that but may miss the narrow range of a steep penalty. Each takes over where the other gives up,
+ * from the best point so far. */
+static enum pm_status minimise(struct scaled *c, ptrdiff_t n, lbfgsfloatval_t *z,
+                               struct pm_err *err)
+{
+    static const int searches[] = {LBFGS_LINESEARCH_MORETHUENTE,
+                                   LBFGS_LINESEARCH_BACKTRACKING_STRONG_WOLFE,
+                                   LBFGS_LINESEARCH_MORETHUENTE};
+    lbfgs_parameter_t parameter;
+    lbfgsfloatval_t f = 0;
+    int end = -1;
+
+    lbfgs_parameter_init(&parameter);
+    parameter.m = 10;
+    parameter.max_iterations = 100;
+    parameter.epsilon = 1e-3;
+    parameter.past = 5; /* also ends where five iterations gain less than 3e-4 of the objective */
+    parameter.delta = 3e-4;
+    for (int k = 0; k < 3 && end < 0 && end != LBFGSERR_MAXIMUMITERATION; k++) {
+        parameter.linesearch = searches[k];
+        end = lbfgs((int)n, z, &f, evaluate, NULL, c, &parameter);
+        pm_log(2, "L-BFGS: code %d after %td evaluations, objective %.4g", end, c->evaluations,
+               f - 2);
+        if (end == LBFGSERR_OUTOFMEMORY)
+            return pm_fail(err, PM_SYSTEM, "out of memory");
+    }
+    return PM_OK;
+}
+
 enum pm_status subproblem_solve(const struct subproblem *s, double *step, struct pm_err *err)
 {
     enum pm_status status;
     const ptrdiff_t n = 3 * s->N;
     struct scaled c = {
         .s = s, .gain = s->radius * subproblem_dual_norm(s, s->gradient), .step = step};
-    lbfgs_parameter_t parameter;
-    lbfgsfloatval_t *z = lbfgs_malloc((int)n), f = 0;
+    lbfgsfloatval_t *z = lbfgs_malloc((int)n);
 
-    lbfgs_parameter_init(&parameter);
-    parameter.m = 10;
-    /* halving survives steps that fold a surface, where curvatures are infinite */
-    parameter.linesearch = LBFGS_LINESEARCH_BACKTRACKING_STRONG_WOLFE;
-    parameter.max_iterations = 100;
-    parameter.epsilon = 1e-3;
-    parameter.past = 5; /* also ends where five iterations gain less than 1e-3 of the objective */
-    parameter.delta = 1e-3;
     if (z == NULL)
         PM_TRY(pm_fail(err, PM_SYSTEM, "out of memory"));
     PM_TRY(PM_NEW(c.slope, n, err));
@@ -116,12 +137,7 @@ enum pm_status subproblem_solve(const struct subproblem *s, double *step, struct
                        "the gradient of the measure is %g, expected a positive norm", c.gain));
     for (ptrdiff_t i = 0; i < n; i++)
         z[i] = step[i] * sqrt(s->mass[i / 3]) / s->radius;
-    /* Line searches that end at rounding leave the best point in z; only exhaustion of memory is a
-     * failure. */
-    const int end = lbfgs((int)n, z, &f, evaluate, NULL, &c, &parameter);
-    pm_log(2, "L-BFGS: code %d after %td evaluations, objective %.4g", end, c.evaluations, f - 2);
-    if (end == LBFGSERR_OUTOFMEMORY)
-        PM_TRY(pm_fail(err, PM_SYSTEM, "out of memory"));
+    PM_TRY(minimise(&c, n, z, err));
     for (ptrdiff_t i = 0; i < n; i++)
         step[i] = z[i] * s->radius / sqrt(s->mass[i / 3]);
     s->project(s->context, step);
