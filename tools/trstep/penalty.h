@@ -1,4 +1,5 @@
-/* Penalties of the trust-region sub-problem on fixed samples of the surfaces [paper 79, 80; model 8]:
+/* Penalties of the trust-region sub-problem on fixed samples of the surfaces [paper 79, 80; model
+ * 8]:
  *
  *   curvature  sum_q a_q <Q_q - Cmax^2>^2 / Cmax^4,  Q = c1^2 + c2^2, a_q = share of the area
  *   wall       sum_ij a_i area_j/d^2 <d^2 - |r_i - r_j|^2>^2 / d^4 over pairs of samples,

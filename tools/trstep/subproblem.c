@@ -130,7 +130,7 @@ enum pm_status subproblem_solve(const struct subproblem *s, double *step, struct
     lbfgsfloatval_t *z = lbfgs_malloc((int)n);
 
     if (z == NULL)
-        PM_TRY(pm_fail(err, PM_SYSTEM, "out of memory"));
+        return pm_fail(err, PM_SYSTEM, "out of memory");
     PM_TRY(PM_NEW(c.slope, n, err));
     if (!(c.gain > 0) || !isfinite(c.gain))
         PM_TRY(pm_fail(err, PM_NUMERIC,

@@ -1,6 +1,7 @@
-/* The trust-region sub-problem [paper 81, model 8]: minimise -G.step + rho_c C_c + rho_t C_t over the
- * symmetric free steps with |step|_M <= radius and no control point moved by more than 2 radius,
- * |step|_M^2 = sum_m M_m |step_m|^2 / area, M lumped: the mean square displacement of the surfaces.
+/* The trust-region sub-problem [paper 81, model 8]: minimise -G.step + rho_c C_c + rho_t C_t over
+ * the symmetric free steps with |step|_M <= radius and no control point moved by more than 2
+ * radius, |step|_M^2 = sum_m M_m |step_m|^2 / area, M lumped: the mean square displacement of the
+ * surfaces.
  */
 #ifndef TRSTEP_SUBPROBLEM_H
 #define TRSTEP_SUBPROBLEM_H
