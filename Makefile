@@ -41,9 +41,11 @@ TEST_BIN := $(TEST_SRC:%.c=$B/%)
 KERNEL_SRC := $(filter-out %/main.c tools/tetmesh/volume_gmsh.c,$(wildcard tools/*/*.c))
 
 # The flags of HDF5 are read when make starts: what may install packages first goes through a second make.
+# All processors where the caller asks for no number of jobs.
+JOBS = $(if $(filter -j% --jobserver%,$(MAKEFLAGS)),,-j$(shell nproc))
 .PHONY: all build deps deps-lint
 all: deps ## build the tools to build/bin (installs missing packages first, DEPS=no: does not)
-	+@$(MAKE) --no-print-directory build
+	+@$(MAKE) --no-print-directory $(JOBS) build
 build: $(TOOL_BIN)
 deps: ## install the Debian packages that are missing
 	@DEPS='$(DEPS)' ./deps.sh build
@@ -91,7 +93,7 @@ PROVE_JOBS ?= 2
 RUN_TESTS = $(patsubst %.c,$B/%,$(filter %.c,$(T))) $(filter %.sh,$(T))
 .PHONY: check check-built
 check: deps ## build and run the tests (SANITIZE=1: under the address and undefined sanitizers)
-	+@$(MAKE) --no-print-directory check-built
+	+@$(MAKE) --no-print-directory $(JOBS) check-built
 check-built: $(TOOL_BIN) $(TEST_TOOL) $(filter $B/%,$(RUN_TESTS))
 	BUILD='$B' $(if $(SANITIZE),ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=tests/lib/lsan.supp:print_suppressions=0) \
 		prove -j$(PROVE_JOBS) $(RUN_TESTS)

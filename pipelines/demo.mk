@@ -6,7 +6,7 @@ DEMO_SIZE ?= 5
 DEMO_SET ?= optimisation.radius=0.15 optimisation.radius_max=0.2
 DEMO_ITERATIONS ?= 7
 DEMO_RUN ?= run/demo
-DEMO = +@$(MAKE) --no-print-directory $(if $(findstring jobserver,$(MAKEFLAGS)),,-j$(shell nproc)) RUN=$(DEMO_RUN)
+DEMO = +@$(MAKE) --no-print-directory $(JOBS) RUN=$(DEMO_RUN)
 .PHONY: demo
 demo: all ## the demonstration: optimise a small robot in a few minutes, report, draw
 	$(DEMO) optimize CASE=$(DEMO_CASE) SIZE=$(DEMO_SIZE) SET='$(DEMO_SET)' ITERATIONS=$(DEMO_ITERATIONS)
