@@ -43,6 +43,24 @@ static enum pm_status translate(const char *what, struct pm_err *err)
         }                                                                                          \
     } while (0)
 
+/* gmsh orders vertices by their addresses, so its meshes depend on what was freed before: FLTK,
+ * which it starts, allocates as it finds the preferences of the user, and these are shared by all
+ * processes. Taking all free pieces off the heap makes later addresses ascend. The process ends
+ * soon. */
+static void settle_heap(void)
+{
+    enum { SMALLEST = 16, LARGEST = 1024, PIECES = 1000 };
+    static void *chain;
+    for (size_t size = SMALLEST; size <= LARGEST; size += SMALLEST)
+        for (int k = 0; k < PIECES; k++) {
+            void **piece = malloc(size);
+            if (piece == NULL)
+                return;
+            *piece = chain;
+            chain = piece;
+        }
+}
+
 static enum pm_status start(struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -56,6 +74,7 @@ static enum pm_status start(struct pm_err *err)
     GMSH(gmshInitialize(0, NULL, 0, &ierr), "cannot start gmsh");
     for (size_t k = 0; k < sizeof options / sizeof options[0]; k++)
         GMSH(gmshOptionSetNumber(options[k].name, options[k].value, &ierr), "cannot set up gmsh");
+    settle_heap();
 done:
     return status;
 }
