@@ -8,6 +8,7 @@
 #include "common/base/memory.h"
 #include "common/files/state.h"
 #include "common/mechanics/adjoint.h"
+#include "common/mechanics/advect.h"
 #include "common/mechanics/equilibrium.h"
 
 /* Pressures of the run: a point of a Gauss set, or those given. */
@@ -55,9 +56,10 @@ struct guess {
     double *at, *pressure; /* (nc) [MPa]; (ne x 4) [MPa] */
 };
 
-/* Takes displacements, loads and element pressures of the guess into c and g. */
-static enum pm_status take_guess(const struct pm_state *from, struct pm_config *c, struct guess *g,
-                                 struct pm_err *err)
+/* Takes displacements, carried to the shape `now`, loads and element pressures of the guess into c
+ * and g. */
+static enum pm_status take_guess(const struct pm_state *from, const struct pm_mesh *now,
+                                 struct pm_config *c, struct guess *g, struct pm_err *err)
 {
     enum pm_status status;
     const struct pm_mesh *mesh = &from->mesh;
@@ -72,6 +74,7 @@ static enum pm_status take_guess(const struct pm_state *from, struct pm_config *
     pm_model_pressure(m, c, still, g->pressure);
     for (ptrdiff_t r = 0; r < mesh->nc; r++)
         g->at[r] = from->pressure[r] * mesh->pcase.mu;
+    PM_TRY(pm_advect(mesh, from->u, now, c->u, err));
     g->usable = 1;
 done:
     pm_model_free(m);
@@ -92,7 +95,7 @@ static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, s
                 "state",
                 path);
     else
-        PM_TRY(take_guess(&from, c, g, err));
+        PM_TRY(take_guess(&from, mesh, c, g, err));
 done:
     pm_state_release(&from);
     return status;
