@@ -104,12 +104,12 @@ SH_FILES := $(wildcard *.sh .ci/run pipelines/*.sh tests/*.sh tests/*/*.sh)
 .PHONY: lint lint-text format
 lint: deps deps-lint ## clang-format, clang-tidy, cppcheck, shellcheck, mandoc, sizes
 	+@$(MAKE) --no-print-directory lint-text
-TIDY_FLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -DPM_VERSION=0 -I. $(patsubst -I%,-isystem %,$(HDF5_CFLAGS)) -isystem /usr/include/suitesparse
+TIDY_FLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -DPM_VERSION="\"\"" -I. $(patsubst -I%,-isystem %,$(HDF5_CFLAGS)) -isystem /usr/include/suitesparse
 lint-text:
 	clang-format --dry-run -Werror $(C_FILES)
 	@awk 'FNR == 601 { print FILENAME ": more than 600 lines"; bad = 1 } END { exit bad }' $(C_FILES)
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
-		--suppress=missingIncludeSystem -I. -DPM_VERSION=0 common tools
+		--suppress=missingIncludeSystem -I. -DPM_VERSION='""' common tools
 	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(TIDY_FLAGS) 2>/dev/null' sh
 	shellcheck -x -S warning $(SH_FILES)
 	mandoc -Tlint -Wwarning $(wildcard man/*.[1-9])
