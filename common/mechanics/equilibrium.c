@@ -329,9 +329,10 @@ static enum pm_status start_from_guess(struct solver *s, const struct pm_guess *
     s->r->warm = *out == CONVERGED;
     if (*out != CONVERGED) {
         s->r->backoffs++;
-        pm_warn(
-            "the guess does not lead to an equilibrium (%s): starting from the undeformed state",
-            s->r->why);
+        if (!guess->only)
+            pm_warn("the guess does not lead to an equilibrium (%s): starting from the undeformed "
+                    "state",
+                    s->r->why);
     }
 done:
     return status;
@@ -354,6 +355,8 @@ enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct 
     measure_load(&s, &undeformed, p);
     if (guess != NULL && s.load_norm > 0.0)
         PM_TRY(start_from_guess(&s, guess, p, c, &out, err));
+    if (out != CONVERGED && guess != NULL && guess->only)
+        PM_TRY(pm_fail(err, PM_NUMERIC, "the guess does not lead to an equilibrium: %s", r->why));
     if (out != CONVERGED) {
         const struct path path = {zero, p, o->first_step};
         pm_config_copy(m, &undeformed, c);

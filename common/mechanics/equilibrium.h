@@ -30,13 +30,14 @@ struct pm_solve_report {
 struct pm_guess {
     const double *at;       /* (nc) [MPa] */
     const double *pressure; /* (ne x 4) [MPa] */
+    int only;               /* 1: no other start where the guess fails */
 };
 
 /* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess or
  * NULL: c holds a guess, corrected at its own loads and followed from there to p; one that fails is
- * reported, and the path starts anew from the undeformed state. PM_NUMERIC with the load reached
- * and the last reason if there is no stable equilibrium. volume (nc) and f (nn x 3): chamber
- * volumes and nodal forces at the solution. */
+ * reported, and the path starts anew from the undeformed state, or (guess->only) that is
+ * PM_NUMERIC. PM_NUMERIC with the load reached and the last reason if there is no stable
+ * equilibrium. volume (nc) and f (nn x 3): chamber volumes and nodal forces at the solution. */
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
                               const struct pm_guess *guess, struct pm_config *c, double *volume,
                               double *f, struct pm_solve_report *r, struct pm_err *err);

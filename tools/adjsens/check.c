@@ -43,7 +43,7 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *w, stru
     PM_TRY(PM_NEW(Jq, nc * m->nq, err));
     PM_TRY(PM_NEW(J, 6 * nc, err));
     PM_TRY(PM_NEW(dJ, 6 * nc, err));
-    PM_TRY(pm_equilibrium(m, pt->p, &o, &(struct pm_guess){pt->p, NULL}, &c, V, f, &report, err));
+    PM_TRY(pm_equilibrium(m, pt->p, &o, &(struct pm_guess){.at = pt->p}, &c, V, f, &report, err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, J, err));
     PM_TRY(pm_measure_point(&mesh->pcase, (enum pm_form)pt->state.form, &pr->load, c.U, J, w, dU,
                             dJ, err));

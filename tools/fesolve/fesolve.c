@@ -8,8 +8,8 @@
 #include "common/base/memory.h"
 #include "common/files/state.h"
 #include "common/mechanics/adjoint.h"
-#include "common/mechanics/advect.h"
 #include "common/mechanics/equilibrium.h"
+#include "tools/fesolve/guess.h"
 
 /* Pressures of the run: a point of a Gauss set, or those given. */
 static enum pm_status choose_load(const struct fesolve_opts *o, struct pm_state *s,
@@ -44,63 +44,6 @@ done:
     return status;
 }
 
-static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
-{
-    return a->nn == b->nn && a->ne == b->ne && a->nc == b->nc &&
-           memcmp(a->tet, b->tet, 10 * (size_t)a->ne * sizeof *a->tet) == 0;
-}
-
-/* A guess read from a state file: its loads and element pressures. */
-struct guess {
-    int usable;
-    double *at, *pressure; /* (nc) [MPa]; (ne x 4) [MPa] */
-};
-
-/* Takes displacements, carried to the shape `now`, loads and element pressures of the guess into c
- * and g. */
-static enum pm_status take_guess(const struct pm_state *from, const struct pm_mesh *now,
-                                 struct pm_config *c, struct guess *g, struct pm_err *err)
-{
-    enum pm_status status;
-    const struct pm_mesh *mesh = &from->mesh;
-    struct pm_model *m = NULL;
-    double *still = NULL;
-    PM_TRY(pm_model_new(mesh, from->element, &m, err));
-    PM_TRY(PM_NEW(g->at, mesh->nc, err));
-    PM_TRY(PM_NEW(g->pressure, 4 * mesh->ne, err));
-    PM_TRY(PM_NEW(still, 3 * mesh->nn, err));
-    memcpy(c->u, from->u, 3 * (size_t)mesh->nn * sizeof *c->u);
-    memcpy(c->U, from->U, sizeof c->U);
-    pm_model_pressure(m, c, still, g->pressure);
-    for (ptrdiff_t r = 0; r < mesh->nc; r++)
-        g->at[r] = from->pressure[r] * mesh->pcase.mu;
-    PM_TRY(pm_advect(mesh, from->u, now, c->u, err));
-    g->usable = 1;
-done:
-    pm_model_free(m);
-    pm_free(still);
-    return status;
-}
-
-static enum pm_status load_guess(const char *path, const struct pm_mesh *mesh, struct pm_config *c,
-                                 struct guess *g, struct pm_err *err)
-{
-    enum pm_status status;
-    struct pm_state from = {0};
-    PM_TRY(pm_state_load(path, 1, &from, err));
-    if (from.failure[0] != '\0')
-        pm_warn("guess '%s' records a failure: starting from the undeformed state", path);
-    else if (!same_connectivity(&from.mesh, mesh))
-        pm_warn("guess '%s' belongs to a mesh of other connectivity: starting from the undeformed "
-                "state",
-                path);
-    else
-        PM_TRY(take_guess(&from, mesh, c, g, err));
-done:
-    pm_state_release(&from);
-    return status;
-}
-
 /* Force and moment about the reference point that the clamp exerts on the body. */
 static void reaction(const struct pm_model *m, const struct pm_config *c, const double *f,
                      double out[6])
@@ -120,6 +63,54 @@ static void reaction(const struct pm_model *m, const struct pm_config *c, const 
     }
 }
 
+/* Equilibrium from the guess, over a change of shape in 1, 2 or 4 parts, else from the undeformed
+ * state. */
+static enum pm_status balance(const struct fesolve_opts *o, struct pm_model *m, const double *p,
+                              struct pm_config *c, double *volume, double *f,
+                              struct pm_solve_report *r, struct pm_err *err)
+{
+    enum pm_status status = PM_NUMERIC;
+    struct pm_solve_options options = pm_solve_default;
+    struct pm_solve_report spent = {0};
+    struct guess g = {.usable = 0};
+    struct pm_config undeformed = {0};
+    int good;
+
+    options.tolerance = o->tolerance;
+    PM_TRY(pm_config_new(m, &undeformed, err));
+    if (o->guess != NULL)
+        PM_TRY(guess_load(o->guess, m->mesh, &g, err));
+    status = PM_NUMERIC;
+    for (int parts = 1; status == PM_NUMERIC && g.usable && parts <= (g.same_shape ? 1 : 4);
+         parts *= 2) {
+        struct pm_err why = {0};
+        PM_TRY(guess_carry(&g, m->mesh, parts, c, &good, &spent, err));
+        status = PM_NUMERIC;
+        if (!good)
+            continue;
+        status = pm_equilibrium(m, p, &options,
+                                &(struct pm_guess){.at = g.at, .pressure = g.pressure, .only = 1},
+                                c, volume, f, r, &why);
+        if (status != PM_OK) {
+            spent.factorisations += r->factorisations;
+            spent.backoffs += r->backoffs + 1;
+        }
+        if (status != PM_OK && status != PM_NUMERIC)
+            *err = why;
+    }
+    if (status == PM_NUMERIC) {
+        pm_config_copy(m, &undeformed, c);
+        status = pm_equilibrium(m, p, &options, NULL, c, volume, f, r, err);
+    }
+    r->factorisations += spent.factorisations;
+    r->newton_steps += spent.newton_steps;
+    r->backoffs += spent.backoffs;
+done:
+    guess_release(&g);
+    pm_config_release(&undeformed);
+    return status;
+}
+
 static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, struct pm_err *err)
 {
     enum pm_status status;
@@ -127,10 +118,7 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     struct pm_model *m = NULL;
     struct pm_config c = {0};
     struct pm_solve_report r;
-    struct pm_solve_options options = pm_solve_default;
-    struct guess g = {0};
     double *p = NULL, *f = NULL, *Jq = NULL, low;
-    options.tolerance = o->tolerance;
     PM_TRY(pm_model_new(&s->mesh, o->element, &m, err));
     PM_TRY(pm_config_new(m, &c, err));
     PM_TRY(PM_NEW(p, nc, err));
@@ -142,10 +130,7 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     pm_model_potential(m, &c, p, NULL, s->volume0, &low);
     for (ptrdiff_t i = 0; i < nc; i++)
         p[i] = s->pressure[i] * m->law.mu;
-    if (o->guess != NULL)
-        PM_TRY(load_guess(o->guess, &s->mesh, &c, &g, err));
-    PM_TRY(pm_equilibrium(m, p, &options, g.usable ? &(struct pm_guess){g.at, g.pressure} : NULL,
-                          &c, s->volume, f, &r, err));
+    PM_TRY(balance(o, m, p, &c, s->volume, f, &r, err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
     reaction(m, &c, f, s->reaction);
     memcpy(s->U, c.U, sizeof s->U);
@@ -173,8 +158,6 @@ done:
     pm_free(p);
     pm_free(f);
     pm_free(Jq);
-    pm_free(g.at);
-    pm_free(g.pressure);
     return status;
 }
 

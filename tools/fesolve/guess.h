@@ -1,0 +1,27 @@
+/* An equilibrium of a neighbouring shape (the same connectivity) or load as a first guess. */
+#ifndef PM_FESOLVE_GUESS_H
+#define PM_FESOLVE_GUESS_H
+
+#include "common/files/state.h"
+#include "common/mechanics/equilibrium.h"
+
+struct guess {
+    struct pm_state from;
+    double *at;       /* its pressures (nc) [MPa] */
+    double *pressure; /* of the elements where it was carried to (ne x 4) [MPa] */
+    int usable;
+    int same_shape;
+};
+
+/* usable = 0, with a warning, where the file records a failure or another connectivity. */
+enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, struct guess *g,
+                          struct pm_err *err);
+void guess_release(struct guess *g);
+/* c = the guess carried to the shape of `mesh` (advect.h) in `parts` equal parts of the change,
+ * with an equilibrium at the loads of the guess after each but the last, and g->pressure; *good = 0
+ * where one of those fails. The counts of r grow by theirs. */
+enum pm_status guess_carry(struct guess *g, const struct pm_mesh *mesh, int parts,
+                           struct pm_config *c, int *good, struct pm_solve_report *r,
+                           struct pm_err *err);
+
+#endif
