@@ -108,6 +108,10 @@ TIDY_FLAGS = -std=c17 -D_POSIX_C_SOURCE=200809L -DPM_VERSION="\"\"" -I. $(patsub
 lint-text:
 	clang-format --dry-run -Werror $(C_FILES)
 	@awk 'FNR == 601 { print FILENAME ": more than 600 lines"; bad = 1 } END { exit bad }' $(C_FILES)
+	@! grep -nE '\b(atoi|atof|sprintf|strcpy|strcat)\(' $(C_FILES)
+	@for h in hdf5 cholmod metis gmshc ini zlib lbfgs; do \
+		grep -lx "#include <$$h.h>" $(filter-out tests/%,$(C_FILES)) | awk -v h="$$h.h" 'END { if (NR != 1) { print h ": " NR " users, expected 1"; exit 1 } }' || exit 1; \
+	done
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --error-exitcode=1 \
 		--suppress=missingIncludeSystem -I. -DPM_VERSION='""' common tools
 	printf '%s\n' $(filter %.c,$(C_FILES)) | xargs -P 2 -n 4 sh -c 'clang-tidy --quiet "$$@" -- $(TIDY_FLAGS) 2>/dev/null' sh

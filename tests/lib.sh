@@ -3,6 +3,13 @@
 # shellcheck shell=bash
 set -u
 export LC_ALL=C
+# A make that a test calls is its own, but takes the variables of the command line: other flags would
+# rebuild what is being tested.
+case ${MAKEFLAGS-} in
+*' -- '*) export MAKEFLAGS="-- ${MAKEFLAGS#* -- }" ;;
+*) unset MAKEFLAGS ;;
+esac
+unset MFLAGS MAKELEVEL
 BUILD=${BUILD:-build}
 # shellcheck disable=SC2034
 BIN=$BUILD/bin

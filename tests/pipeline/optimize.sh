@@ -3,7 +3,6 @@
 # shellcheck disable=SC2016,SC2317
 # the same history, a rejected trial costs no adjoint and shrinks the radius, misuse is refused.
 . tests/lib.sh
-unset MAKEFLAGS MFLAGS MAKELEVEL
 
 # run NAME ITERATIONS [VARIABLE=VALUE..]
 run() {
