@@ -40,6 +40,18 @@ check "killed in iteration 1" test ! -e "$work/third/it001/step.h5"
 check "goes on" run third 2
 check "the killed run ends with the same files" same third
 
+# Pictures and report; the area inside the outline of the workspace is the measure, up to the quadrature.
+check "pictures" make -s -j2 B="$BUILD" pictures RUN="$work/first"
+for picture in convergence shape deformed workspace; do
+    check "$picture.png" test -s "$work/first/pictures/$picture.png"
+done
+check "area of the outline" awk 'FNR == NR { if (FNR > 1) t = $3; next }
+    /^#/ { on = /outline/; next }
+    on && NF == 2 { if (n++) a += (x * $2 - y * $1) / 2; x = $1; y = $2 }
+    END { print a, t; exit !(a > 0.97 * t && a < 1.03 * t) }' "$work/first/history.tsv" "$work/first/pictures/data/workspace-after"
+expect 0 "report" make -s -j2 B="$BUILD" report RUN="$work/first"
+check "report gives both forms" grep -q "^it002  2T = .*by the other form" "$work/out"
+
 # A design that cannot be meshed: a control point of a chamber far outside of the body.
 check "one iteration" run wild 0
 check "damage" "$LIB/mangle" set "$work/wild/it000/step.h5" /surface1/phi 0 400
@@ -51,7 +63,16 @@ check "the trial is rejected with a reason and no measure" row 1 '$2 == 0 && $3 
 check "without adjoint work" test ! -e "$work/wild/it001/sens-00.h5"
 check "the next one has a third of the radius and is better" row 2 '$2 == 1 && $7 < 0.07 && $3 > 0.066'
 
-refused 2 "another case for the same run" 'another case or mesh size' \
-    env BIN="$BIN" pipelines/optimize.sh "$work/first" tests/data/tiny.ini 9 2
+# wsint takes every point of a Gauss set once, of one design.
+states=("$work"/first/it000/state-0?.h5)
+refused 3 "a missing point" "no state at point 3 of the boundary form" "$BIN/wsint" "${states[@]:0:3}" -o "$work/output/x.h5"
+refused 3 "a double point" "are states at the same point 0" "$BIN/wsint" "${states[@]}" "${states[0]}" -o "$work/output/x.h5"
+refused 3 "another design" "its mesh differs" "$BIN/wsint" "${states[@]:0:3}" "$work/first/it001/state-03.h5" -o "$work/output/x.h5"
+refused 3 "a form without states" "no state at a point of the volume form" "$BIN/wsint" --form volume "${states[@]}" -o "$work/output/x.h5"
+refused 3 "a measure of three chambers" "measure 3T got 2 chambers, expected 3" "$BIN/wsint" --measure 3T "${states[@]}" -o "$work/output/x.h5"
+refused 3 "a free load" "at no Gauss point" "$BIN/wsint" "${states[@]}" "$work/first/it000/corner-1-1.h5" -o "$work/output/x.h5"
+
+refused 2 "another case for the same run" 'another case or settings' \
+    env BIN="$BIN" pipelines/optimize.sh "$work/first" tests/data/tiny.ini mesh.size=9 2
 refused 2 "no case" 'has no case' env BIN="$BIN" pipelines/optimize.sh "$work/none" '' '' 2
 finish
