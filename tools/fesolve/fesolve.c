@@ -78,8 +78,7 @@ static enum pm_status balance(const struct fesolve_opts *o, struct pm_model *m, 
 
     options.tolerance = o->tolerance;
     PM_TRY(pm_config_new(m, &undeformed, err));
-    if (o->guess != NULL)
-        PM_TRY(guess_load(o->guess, m->mesh, &g, err));
+    PM_TRY(guess_choose(o->guess, m->mesh, p, &g, err));
     status = PM_NUMERIC;
     for (int parts = 1; status == PM_NUMERIC && g.usable && parts <= (g.same_shape ? 1 : 4);
          parts *= 2) {
@@ -99,6 +98,8 @@ static enum pm_status balance(const struct fesolve_opts *o, struct pm_model *m, 
             *err = why;
     }
     if (status == PM_NUMERIC) {
+        if (g.usable)
+            pm_warn("the guess does not lead to an equilibrium: starting from the undeformed state");
         pm_config_copy(m, &undeformed, c);
         status = pm_equilibrium(m, p, &options, NULL, c, volume, f, r, err);
     }
@@ -167,7 +168,6 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
     enum pm_status status;
     struct pm_state s = {0};
     struct pm_h5 *out = NULL;
-    const char *const extra[] = {o->guess, NULL};
     if (o->have_load == (o->npressure > 0))
         return pm_fail(err, PM_USAGE, "expected exactly one of --load and --pressure");
     PM_TRY(pm_mesh_load(common->operands[0], o->record_failure, &s.mesh, err));
@@ -187,7 +187,7 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
             goto done;
         }
     }
-    PM_TRY(pm_h5_create(common->output, "state", common, extra, &out, err));
+    PM_TRY(pm_h5_create(common->output, "state", common, o->guess, &out, err));
     PM_TRY(pm_state_write(out, &s, err));
     status = pm_h5_commit(out, err);
     out = NULL;

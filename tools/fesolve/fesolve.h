@@ -5,12 +5,16 @@
 #include "common/base/tool.h"
 #include "common/files/case.h"
 
+enum { FESOLVE_MOST_GUESSES = 32 };
+
 struct fesolve_opts {
     int have_load, have_form, npressure; /* exactly one of load and pressure */
     long load;
     enum pm_form form;
-    double pressure[PM_MAX_CHAMBERS]; /* [p/mu] */
-    const char *guess, *element;
+    double pressure[PM_MAX_CHAMBERS];            /* [p/mu] */
+    const char *guess[FESOLVE_MOST_GUESSES + 1]; /* ends with NULL */
+    int nguess;
+    const char *element;
     double tolerance;
     int record_failure;
 };

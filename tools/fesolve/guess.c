@@ -1,5 +1,6 @@
 #include "tools/fesolve/guess.h"
 
+#include <math.h>
 #include <string.h>
 
 #include "common/base/log.h"
@@ -12,8 +13,8 @@ static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
            memcmp(a->tet, b->tet, 10 * (size_t)a->ne * sizeof *a->tet) == 0;
 }
 
-enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, struct guess *g,
-                          struct pm_err *err)
+static enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, struct guess *g,
+                                 struct pm_err *err)
 {
     enum pm_status status;
     const struct pm_mesh *old = &g->from.mesh;
@@ -35,6 +36,32 @@ enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, struct g
         g->usable = 1;
     }
 done:
+    return status;
+}
+
+enum pm_status guess_choose(const char *const *paths, const struct pm_mesh *mesh, const double *p,
+                            struct guess *g, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct guess next = {.usable = 0};
+    double least = INFINITY;
+
+    *g = (struct guess){.usable = 0};
+    for (; *paths != NULL; paths++) {
+        double distance = 0.0;
+        PM_TRY(guess_load(*paths, mesh, &next, err));
+        for (ptrdiff_t r = 0; r < mesh->nc && next.usable; r++)
+            distance = fmax(distance, fabs(next.at[r] - p[r]));
+        if (next.usable && distance < least) {
+            least = distance;
+            guess_release(g);
+            *g = next;
+            next = (struct guess){.usable = 0};
+        }
+        guess_release(&next);
+    }
+done:
+    guess_release(&next);
     return status;
 }
 

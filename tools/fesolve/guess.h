@@ -13,9 +13,10 @@ struct guess {
     int same_shape;
 };
 
-/* usable = 0, with a warning, where the file records a failure or another connectivity. */
-enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, struct guess *g,
-                          struct pm_err *err);
+/* The one of the files (ends with NULL) whose pressures are nearest to p (nc) [MPa]; usable = 0,
+ * with warnings, where all record a failure or another connectivity. */
+enum pm_status guess_choose(const char *const *paths, const struct pm_mesh *mesh, const double *p,
+                            struct guess *g, struct pm_err *err);
 void guess_release(struct guess *g);
 /* c = the guess carried to the shape of `mesh` (advect.h) in `parts` equal parts of the change,
  * with an equilibrium at the loads of the guess after each but the last, and g->pressure; *good = 0

@@ -6,7 +6,8 @@ static const struct pm_option options[] = {
     {"load", 'l', "G", "solve at point G (from 0) of the Gauss set of the case"},
     {"form", 'F', "NAME", "Gauss set: boundary or volume (default: the form of the case)"},
     {"pressure", 'p', "P1,P2,..", "solve at these chamber pressures, as ratios p/mu"},
-    {"guess", 'g', "STATE.h5", "start from this state of a mesh with the same connectivity"},
+    {"guess", 'g', "STATE.h5",
+     "start from this state of the same connectivity; repeated: the nearest in pressure"},
     {"element", 'e', "NAME", "tet10-blend (default), tet10 or tet10-mean"},
     {"tolerance", 't', "T", "residual / pressure load at the solution (default 1e-8)"},
     {"record-failure", 'r', NULL,
@@ -29,7 +30,10 @@ static enum pm_status option(void *data, const char *name, const char *value, st
     } else if (strcmp(name, "pressure") == 0) {
         status = pm_parse_doubles(name, value, PM_MAX_CHAMBERS, o->pressure, &o->npressure, err);
     } else if (strcmp(name, "guess") == 0) {
-        o->guess = value;
+        if (o->nguess == FESOLVE_MOST_GUESSES)
+            return pm_fail(err, PM_USAGE, "option --guess: more than %d files",
+                           FESOLVE_MOST_GUESSES);
+        o->guess[o->nguess++] = value;
     } else if (strcmp(name, "element") == 0) {
         o->element = value;
     } else if (strcmp(name, "tolerance") == 0) {
