@@ -95,8 +95,7 @@ RUN_TESTS = $(patsubst %.c,$B/%,$(filter %.c,$(T))) $(filter %.sh,$(T))
 check: deps ## build and run the tests (SANITIZE=1: under the address and undefined sanitizers)
 	+@$(MAKE) --no-print-directory $(JOBS) check-built
 check-built: $(TOOL_BIN) $(TEST_TOOL) $(filter $B/%,$(RUN_TESTS))
-	BUILD='$B' $(if $(SANITIZE),ASAN_OPTIONS=detect_leaks=1 LSAN_OPTIONS=suppressions=tests/lib/lsan.supp:print_suppressions=0) \
-		prove -j$(PROVE_JOBS) $(RUN_TESTS)
+	BUILD='$B' prove -j$(PROVE_JOBS) $(RUN_TESTS)
 
 # Checks of the source text.
 C_FILES := $(wildcard common/*/*.[ch] tools/*/*.[ch] tests/*.[ch] tests/*/*.[ch])
