@@ -14,7 +14,7 @@
 
 enum { NO_TAG = INT32_MIN };
 static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
-/* Faces out of the tetrahedron: vertices, middles [model 0]. */
+/* Faces out of the tetrahedron: vertices, middles. */
 static const int tet_face[4][6] = {
     {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {1, 2, 3, 5, 8, 9}, {0, 3, 2, 7, 8, 6}};
 
