@@ -99,7 +99,8 @@ static enum pm_status balance(const struct fesolve_opts *o, struct pm_model *m, 
     }
     if (status == PM_NUMERIC) {
         if (g.usable)
-            pm_warn("the guess does not lead to an equilibrium: starting from the undeformed state");
+            pm_warn(
+                "the guess does not lead to an equilibrium: starting from the undeformed state");
         pm_config_copy(m, &undeformed, c);
         status = pm_equilibrium(m, p, &options, NULL, c, volume, f, r, err);
     }
