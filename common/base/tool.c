@@ -229,8 +229,14 @@ static void restart_tuned(char **argv)
     }
     if (blas_kernel() != NULL && getenv("OPENBLAS_CORETYPE") == NULL)
         changed |= setenv("OPENBLAS_CORETYPE", blas_kernel(), 0) == 0;
-    if (changed)
-        execv("/proc/self/exe", argv); /* where that fails, the run is merely slower */
+    /* By its own path, so that the process keeps its name; where that fails, the run is merely
+     * slower. */
+    char path[4096];
+    ssize_t n = changed ? readlink("/proc/self/exe", path, sizeof path - 1) : -1;
+    if (n > 0) {
+        path[n] = '\0';
+        execv(path, argv);
+    }
 }
 
 int pm_tool_main(const struct pm_tool *tool, int argc, char **argv, void *opts)
