@@ -18,4 +18,13 @@ void pm_memory_fail_at(long n);
 #define PM_NEW(p, n, err)                                                                          \
     (((p) = pm_calloc((ptrdiff_t)(n), sizeof *(p), (err))) != NULL ? PM_OK : PM_SYSTEM)
 
+/* p grown to n items, or the calling function returns PM_SYSTEM. */
+#define PM_GROW(p, n, err)                                                                         \
+    do {                                                                                           \
+        void *q_ = pm_realloc(p, n, sizeof *(p), err);                                             \
+        if (q_ == NULL)                                                                            \
+            return PM_SYSTEM;                                                                      \
+        (p) = q_;                                                                                  \
+    } while (0)
+
 #endif

@@ -42,11 +42,6 @@ void pm_h5_version(char *text, size_t size)
     snprintf(text, size, "%u.%u.%u", major, minor, release);
 }
 
-const char *pm_h5_kind(const struct pm_h5 *f)
-{
-    return f->kind;
-}
-
 const char *pm_h5_path(const struct pm_h5 *f)
 {
     return f->path;

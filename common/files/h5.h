@@ -28,7 +28,6 @@ enum pm_status pm_h5_create(const char *path, const char *kind, const struct pm_
 enum pm_status pm_h5_commit(struct pm_h5 *f, struct pm_err *err);
 /* Closes; removes the temporary of a created file. Accepts NULL. */
 void pm_h5_close(struct pm_h5 *f);
-const char *pm_h5_kind(const struct pm_h5 *f);
 const char *pm_h5_path(const struct pm_h5 *f);
 
 /* Writes the dataset `name` of the schema; dims as in the schema (rank of them). Type: double,

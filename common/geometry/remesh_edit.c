@@ -164,29 +164,21 @@ static void detach(struct pm_edit *m, ptrdiff_t a, ptrdiff_t t)
     memmove(list + k, list + k + 1, (size_t)(m->degree[a] - k) * sizeof *list);
 }
 
-#define GROW(p, n, err)                                                                            \
-    do {                                                                                           \
-        void *q_ = pm_realloc(p, n, sizeof *(p), err);                                             \
-        if (q_ == NULL)                                                                            \
-            return PM_SYSTEM;                                                                      \
-        (p) = q_;                                                                                  \
-    } while (0)
-
 static enum pm_status reserve(struct pm_edit *m, ptrdiff_t nn, ptrdiff_t nt, struct pm_err *err)
 {
     if (nn > m->ncap) {
         const ptrdiff_t n = 2 * nn;
-        GROW(m->S, 3 * n, err);
-        GROW(m->x, 3 * n, err);
-        GROW(m->normal, 3 * n, err);
-        GROW(m->size, n, err);
-        GROW(m->rim, n, err);
-        GROW(m->around, PM_EDIT_DEGREE * n, err);
-        GROW(m->degree, n, err);
+        PM_GROW(m->S, 3 * n, err);
+        PM_GROW(m->x, 3 * n, err);
+        PM_GROW(m->normal, 3 * n, err);
+        PM_GROW(m->size, n, err);
+        PM_GROW(m->rim, n, err);
+        PM_GROW(m->around, PM_EDIT_DEGREE * n, err);
+        PM_GROW(m->degree, n, err);
         m->ncap = n;
     }
     if (nt > m->tcap) {
-        GROW(m->tri, 3 * 2 * nt, err);
+        PM_GROW(m->tri, 3 * 2 * nt, err);
         m->tcap = 2 * nt;
     }
     return PM_OK;

@@ -130,12 +130,6 @@ enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrh
     return PM_OK;
 }
 
-void pm_cholesky_flops(const struct pm_cholesky *c, double *nnz_L, double *flops)
-{
-    *nnz_L = c->common.lnz;
-    *flops = c->common.fl;
-}
-
 void pm_cholesky_free(struct pm_cholesky *c)
 {
     if (c == NULL)

@@ -25,7 +25,6 @@ enum pm_status pm_cholesky_factor(struct pm_cholesky *c, const double *value, in
 /* x (n x nrhs, column after column) is replaced by A^-1 x. */
 enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrhs,
                                  struct pm_err *err);
-void pm_cholesky_flops(const struct pm_cholesky *c, double *nnz_L, double *flops);
 void pm_cholesky_free(struct pm_cholesky *c);
 
 #endif

@@ -21,15 +21,6 @@ const double pm_tri_weight[PM_TRI_POINTS] = {W1, W1, W1, W2, W2, W2};
 static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 static const double dL[4][3] = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
-void pm_tet10_shape(const double xi[3], double N[10])
-{
-    double L[4] = {1 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]};
-    for (int a = 0; a < 4; a++)
-        N[a] = L[a] * (2 * L[a] - 1);
-    for (int k = 0; k < 6; k++)
-        N[4 + k] = 4 * L[edge[k][0]] * L[edge[k][1]];
-}
-
 void pm_tet10_shape_gradient(const double xi[3], double dN[30])
 {
     double L[4] = {1 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]};

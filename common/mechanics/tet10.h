@@ -15,7 +15,6 @@ extern const double pm_tet_weight[PM_TET_POINTS];
 extern const double pm_tri_xi[PM_TRI_POINTS][2];
 extern const double pm_tri_weight[PM_TRI_POINTS];
 
-void pm_tet10_shape(const double xi[3], double N[10]);
 void pm_tet10_shape_gradient(const double xi[3], double dN[30]);    /* dN_a/dxi_j (10 x 3) */
 void pm_tri6_shape(const double xi[2], double N[6], double dN[12]); /* dN_a/dxi_j (6 x 2) */
 

@@ -34,22 +34,14 @@ const char *pm_shell_name(int32_t tag, char name[32])
     return name;
 }
 
-#define GROW(p, n, err)                                                                            \
-    do {                                                                                           \
-        void *q_ = pm_realloc(p, n, sizeof *(p), err);                                             \
-        if (q_ == NULL)                                                                            \
-            return PM_SYSTEM;                                                                      \
-        (p) = q_;                                                                                  \
-    } while (0)
-
 static enum pm_status grow(struct pm_shell *s, ptrdiff_t nn, ptrdiff_t nt, struct pm_err *err)
 {
-    GROW(s->x, 3 * (s->nn + nn), err);
-    GROW(s->size, s->nn + nn, err);
-    GROW(s->S, 3 * (s->nn + nn), err);
-    GROW(s->surface, s->nn + nn, err);
-    GROW(s->tri, 3 * (s->nt + nt), err);
-    GROW(s->tag, s->nt + nt, err);
+    PM_GROW(s->x, 3 * (s->nn + nn), err);
+    PM_GROW(s->size, s->nn + nn, err);
+    PM_GROW(s->S, 3 * (s->nn + nn), err);
+    PM_GROW(s->surface, s->nn + nn, err);
+    PM_GROW(s->tri, 3 * (s->nt + nt), err);
+    PM_GROW(s->tag, s->nt + nt, err);
     return PM_OK;
 }
 
