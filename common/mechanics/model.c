@@ -25,9 +25,7 @@ struct pm_element pm_model_element(const struct pm_model *m, ptrdiff_t e)
     return (struct pm_element){&m->law, m->blend, m->dN + 120 * e, m->w + 4 * e};
 }
 
-/* Deformed positions of a face relative to the origin of the volumes. */
-static void face_positions(const struct pm_model *m, const struct pm_config *c, ptrdiff_t f,
-                           double x[18])
+void pm_model_face(const struct pm_model *m, const struct pm_config *c, ptrdiff_t f, double x[18])
 {
     const int32_t *t = m->mesh->tri + 6 * f;
     for (int a = 0; a < 6; a++)
@@ -298,7 +296,7 @@ double pm_model_potential(const struct pm_model *m, const struct pm_config *c, c
         double x[18], g[18], V = 0.0;
         if (r < 0)
             continue;
-        face_positions(m, c, k, x);
+        pm_model_face(m, c, k, x);
         pm_cavity_vec(x, x, g);
         for (int i = 0; i < 18; i++)
             V -= x[i] * g[i] / 6.0;
@@ -319,7 +317,7 @@ void pm_model_volume_gradient(const struct pm_model *m, const struct pm_config *
         double x[18], g[18];
         if (chamber_of(m, k) != r)
             continue;
-        face_positions(m, c, k, x);
+        pm_model_face(m, c, k, x);
         pm_cavity_vec(x, x, g);
         scatter_add(m->mesh->tri + 6 * k, 6, -0.5, g, nodal);
     }
@@ -332,7 +330,7 @@ void pm_model_volume_apply(const struct pm_model *m, const struct pm_config *c, 
         double x[18], d[18], g[18];
         if (chamber_of(m, k) != r)
             continue;
-        face_positions(m, c, k, x);
+        pm_model_face(m, c, k, x);
         pm_gather(m->mesh->tri + 6 * k, 6, v, d);
         pm_cavity_vec(x, d, g);
         scatter_add(m->mesh->tri + 6 * k, 6, -s, g, out);

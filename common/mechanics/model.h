@@ -90,6 +90,8 @@ void pm_model_shape(const struct pm_model *m, const struct pm_config *c, const d
 
 /* The element e as kernels take it, and its nodal values gathered from a nodal field. */
 struct pm_element pm_model_element(const struct pm_model *m, ptrdiff_t e);
+/* Deformed positions of boundary face f relative to the origin of the volumes (6 x 3) [mm]. */
+void pm_model_face(const struct pm_model *m, const struct pm_config *c, ptrdiff_t f, double x[18]);
 void pm_gather(const int32_t *nodes, int n, const double *nodal, double *local);
 
 #endif

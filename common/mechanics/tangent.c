@@ -94,10 +94,7 @@ static void add_pressure(struct pm_model *m, const struct pm_rotation *rot,
         if (mesh->tri_tag[f] < 1 || p[mesh->tri_tag[f] - 1] == 0.0)
             continue;
         double pr = p[mesh->tri_tag[f] - 1];
-        for (int a = 0; a < 6; a++)
-            for (int i = 0; i < 3; i++)
-                x[3 * a + i] =
-                    mesh->x[3 * (ptrdiff_t)t[a] + i] + c->u[3 * (ptrdiff_t)t[a] + i] - m->origin[i];
+        pm_model_face(m, c, f, x);
         pm_cavity_hessian(x, s);
         for (int a = 0; a < 6; a++)
             for (int b = 0; b < 6; b++) {
