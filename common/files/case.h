@@ -37,9 +37,11 @@ struct pm_case {
     char *text; /* the INI text itself, NUL terminated, owned */
     char name[64];
     /* [material] */
-    char law[32];                                /* neo-hookean, mooney-rivlin, yeoh */
-    double law_parameter[PM_MAX_LAW_PARAMETERS]; /* by law: neo-hookean {mu}, mooney-rivlin {c10,
-                                                    c01}, yeoh {c1, c2, c3} [MPa] */
+    char law[32]; /* neo-hookean, mooney-rivlin, yeoh, ogden */
+    /* by law: neo-hookean {mu}, mooney-rivlin {c10, c01}, yeoh {c1, c2, c3}, ogden {mu1, alpha1,
+     * mu2, alpha2, ..}: alpha [1], all others [MPa] */
+    double law_parameter[PM_MAX_LAW_PARAMETERS];
+    ptrdiff_t nlaw_parameter;
     double mu, kappa; /* small-strain shear modulus, bulk modulus [MPa] */
     /* [body] */
     enum pm_body body;

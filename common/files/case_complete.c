@@ -53,6 +53,7 @@ static enum pm_status complete_material(struct pm_case_raw *raw, const char *nam
     parameter[0] = neo ? raw->mu : mooney ? raw->c10 : raw->c1;
     parameter[1] = mooney ? raw->c01 : yeoh ? raw->c2 : 0;
     parameter[2] = yeoh ? raw->c3 : 0;
+    c->nlaw_parameter = neo ? 1 : mooney ? 2 : 3;
     c->mu = neo ? raw->mu : mooney ? 2 * (raw->c10 + raw->c01) : 2 * raw->c1;
     if (!(c->mu > 0))
         return pm_fail(err, PM_INPUT, "cannot use '%s': 2 (c10 + c01) is %g, expected > 0", name,

@@ -17,20 +17,22 @@ struct invariants {
     double i[NI], C[9], g[NI][9];
 };
 
-enum pm_status pm_law_set(struct pm_law *law, const char *name, const double *c, double kappa,
-                          struct pm_err *err)
+enum pm_status pm_law_set(struct pm_law *law, const char *name, ptrdiff_t n, const double *c,
+                          double kappa, struct pm_err *err)
 {
     static const struct {
         const char *name;
         enum pm_law_kind kind;
-        int n;
-    } known[] = {{"neo-hookean", PM_LAW_NEO_HOOKEAN, 1},
-                 {"mooney-rivlin", PM_LAW_MOONEY_RIVLIN, 2},
-                 {"yeoh", PM_LAW_YEOH, 3}};
+        int least, most; /* parameters */
+    } known[] = {{"neo-hookean", PM_LAW_NEO_HOOKEAN, 1, 1},
+                 {"mooney-rivlin", PM_LAW_MOONEY_RIVLIN, 2, 2},
+                 {"yeoh", PM_LAW_YEOH, 1, 3}};
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
         if (strcmp(name, known[k].name) == 0) {
-            *law = (struct pm_law){.kind = known[k].kind, .kappa = kappa};
-            for (int i = 0; i < known[k].n; i++)
+            if (n < known[k].least || n > known[k].most)
+                return pm_fail(err, PM_INPUT, "material law '%s': found %td parameters", name, n);
+            *law = (struct pm_law){.kind = known[k].kind, .n = n, .kappa = kappa};
+            for (ptrdiff_t i = 0; i < n; i++)
                 law->c[i] = c[i];
             law->mu = law->kind == PM_LAW_NEO_HOOKEAN ? c[0] : 2 * c[0];
             if (law->kind == PM_LAW_MOONEY_RIVLIN)
@@ -119,6 +121,8 @@ static void derivatives_at(const struct pm_law *law, const double *i, struct der
         break;
     case PM_LAW_YEOH:
         yeoh_term(d, law->c, i);
+        break;
+    case PM_LAW_OGDEN:
         break;
     }
 }

@@ -3,20 +3,28 @@
 #ifndef PM_LAW_H
 #define PM_LAW_H
 
+#include <stddef.h>
+
 #include "common/base/status.h"
 
-enum pm_law_kind { PM_LAW_NEO_HOOKEAN, PM_LAW_MOONEY_RIVLIN, PM_LAW_YEOH };
+enum { PM_LAW_MAX = 12 };
+
+enum pm_law_kind { PM_LAW_NEO_HOOKEAN, PM_LAW_MOONEY_RIVLIN, PM_LAW_YEOH, PM_LAW_OGDEN };
 
 struct pm_law {
     enum pm_law_kind kind;
-    double c[3];  /* neo-Hookean {mu}; Mooney-Rivlin {c10, c01}; Yeoh {c1, c2, c3} [MPa] */
+    /* neo-Hookean {mu}; Mooney-Rivlin {c10, c01}; Yeoh {c1, c2, c3}; Ogden {mu1, alpha1, mu2,
+     * alpha2, ..}: alpha [1], all others [MPa] */
+    double c[PM_LAW_MAX];
+    ptrdiff_t n;  /* how many of c */
     double mu;    /* small-strain shear modulus [MPa] */
     double kappa; /* bulk modulus               [MPa] */
 };
 
-/* By name: neo-hookean, mooney-rivlin, yeoh; c as above. */
-enum pm_status pm_law_set(struct pm_law *law, const char *name, const double *c, double kappa,
-                          struct pm_err *err);
+/* By name: neo-hookean, mooney-rivlin, yeoh, ogden; c (n) as above, of yeoh 1 to 3, of ogden 1 to 6
+ * pairs. */
+enum pm_status pm_law_set(struct pm_law *law, const char *name, ptrdiff_t n, const double *c,
+                          double kappa, struct pm_err *err);
 
 /* Isochoric part at F (det F > 0): returns W_iso; P_iso = dW_iso/dF (NULL: not wanted). */
 double pm_law_stress(const struct pm_law *law, const double F[9], double P[9]);

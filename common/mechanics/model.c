@@ -139,7 +139,7 @@ enum pm_status pm_model_new(const struct pm_mesh *mesh, const char *element, str
     if (m == NULL)
         return PM_SYSTEM;
     m->mesh = mesh;
-    PM_TRY(pm_law_set(&m->law, c->law, c->law_parameter, c->kappa, err));
+    PM_TRY(pm_law_set(&m->law, c->law, c->nlaw_parameter, c->law_parameter, c->kappa, err));
     PM_TRY(pm_element_blend(element, &m->law, &m->blend, err));
     PM_TRY(element_geometry(m, err));
     PM_TRY(node_kinds(m, err));

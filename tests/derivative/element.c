@@ -118,9 +118,10 @@ int main(void)
     static const struct {
         const char *name;
         double c[3], kappa;
-    } law[] = {{"neo-hookean", {0.465}, 46.5},
-               {"mooney-rivlin", {0.2, 0.05}, 30},
-               {"yeoh", {0.2, -0.01, 0.002}, 300}};
+        int n;
+    } law[] = {{"neo-hookean", {0.465}, 46.5, 1},
+               {"mooney-rivlin", {0.2, 0.05}, 30, 2},
+               {"yeoh", {0.2, -0.01, 0.002}, 300, 3}};
     static const char *const element[] = {"tet10-blend", "tet10", "tet10-mean"};
     if (root == NULL)
         return tap_bail("no reference");
@@ -133,7 +134,7 @@ int main(void)
     for (int k = 0; k < 3; k++)
         for (int e = 0; e < 3; e++) {
             struct pm_err err = {0};
-            pm_law_set(&s.law, law[k].name, law[k].c, law[k].kappa, &err);
+            pm_law_set(&s.law, law[k].name, law[k].n, law[k].c, law[k].kappa, &err);
             check(&s, law[k].name, element[e]);
         }
     cJSON_Delete(root);

@@ -18,7 +18,7 @@ static void element(const cJSON *root)
     struct pm_err err = {0};
     struct pm_element el = {.law = &law, .blend = 1.0, .dN = dN, .w = wq};
     double mu = cJSON_GetObjectItemCaseSensitive(root, "mu")->valuedouble, vol = 0.0;
-    pm_law_set(&law, "neo-hookean", &mu,
+    pm_law_set(&law, "neo-hookean", 1, &mu,
                cJSON_GetObjectItemCaseSensitive(root, "kappa")->valuedouble, &err);
     reference_numbers(root, "X", X, 30);
     reference_numbers(root, "x", x, 30);
