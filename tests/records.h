@@ -87,8 +87,15 @@ static inline enum pm_status sample_mesh(struct pm_mesh *m, struct pm_err *err)
         {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {1, 2, 3, 5, 8, 9}, {0, 3, 2, 7, 8, 6}};
     static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
-    *m = (struct pm_mesh){
-        .nn = 10, .ne = 1, .nf = 4, .nc = 2, .nw = 4, .N = 28, .min_jacobian = 0.5};
+    *m = (struct pm_mesh){.nn = 10,
+                          .ne = 1,
+                          .nf = 4,
+                          .nc = 2,
+                          .npe = 10,
+                          .npf = 6,
+                          .nw = 4,
+                          .N = 28,
+                          .min_jacobian = 0.5};
     PM_TRY(pm_case_parse(sample_case_text, "sample", &m->pcase, err));
     PM_TRY(PM_NEW(m->x, 30, err));
     PM_TRY(PM_NEW(m->x_generated, 30, err));

@@ -58,10 +58,10 @@ enum pm_status pm_h5_link(struct pm_h5 *f, const char *target, const char *name,
                           struct pm_err *err);
 /* Attributes Version and Type of the existing group /VTKHDF. */
 enum pm_status pm_h5_mark_vtk(struct pm_h5 *f, const char *type, struct pm_err *err);
-/* Writes the group /VTKHDF (UnstructuredGrid, quadratic tetrahedra in VTK order) for the nn nodes
- * of the dataset `points`, already written, and ne tet10. */
+/* Writes the group /VTKHDF (UnstructuredGrid, tetrahedra in VTK order) for the nn nodes of the
+ * dataset `points`, already written, and tet (ne x npe), npe 4 or 10. */
 enum pm_status pm_h5_put_vtk(struct pm_h5 *f, const char *points, ptrdiff_t nn, ptrdiff_t ne,
-                             const int32_t *tet, struct pm_err *err);
+                             ptrdiff_t npe, const int32_t *tet, struct pm_err *err);
 /* Adds a nodal vector field (nn x 3) of the schema to /VTKHDF/PointData by a link. */
 enum pm_status pm_h5_vtk_point_field(struct pm_h5 *f, const char *dataset, const char *label,
                                      struct pm_err *err);

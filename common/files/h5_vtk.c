@@ -1,30 +1,30 @@
-/* The VTKHDF side of a file: an UnstructuredGrid of quadratic tetrahedra. */
+/* The VTKHDF side of a file: an UnstructuredGrid of linear or quadratic tetrahedra. */
 #include <stdio.h>
 
 #include "common/base/memory.h"
 #include "common/files/h5.h"
 
-enum { VTK_QUADRATIC_TETRA = 24 };
+enum { VTK_TETRA = 10, VTK_QUADRATIC_TETRA = 24 };
 
 /* VTK numbers the edges (01)(12)(20)(30)(13)(23): the last two of ours swapped. */
 static const int vtk_order[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
 
-static enum pm_status put_cells(struct pm_h5 *f, ptrdiff_t ne, const int32_t *tet,
+static enum pm_status put_cells(struct pm_h5 *f, ptrdiff_t ne, ptrdiff_t npe, const int32_t *tet,
                                 struct pm_err *err)
 {
     enum pm_status status;
     int64_t *node = NULL, *offset = NULL;
     uint8_t *type = NULL;
-    PM_TRY(PM_NEW(node, 10 * ne, err));
+    PM_TRY(PM_NEW(node, npe * ne, err));
     PM_TRY(PM_NEW(offset, ne + 1, err));
     PM_TRY(PM_NEW(type, ne, err));
     for (ptrdiff_t e = 0; e < ne; e++) {
-        for (int a = 0; a < 10; a++)
-            node[10 * e + a] = tet[10 * e + vtk_order[a]];
-        offset[e + 1] = 10 * (e + 1);
-        type[e] = VTK_QUADRATIC_TETRA;
+        for (ptrdiff_t a = 0; a < npe; a++)
+            node[npe * e + a] = tet[npe * e + vtk_order[a]];
+        offset[e + 1] = npe * (e + 1);
+        type[e] = npe == 4 ? VTK_TETRA : VTK_QUADRATIC_TETRA;
     }
-    PM_TRY(pm_h5_put(f, "/VTKHDF/Connectivity", (const ptrdiff_t[]){10 * ne}, node, err));
+    PM_TRY(pm_h5_put(f, "/VTKHDF/Connectivity", (const ptrdiff_t[]){npe * ne}, node, err));
     PM_TRY(pm_h5_put(f, "/VTKHDF/Offsets", (const ptrdiff_t[]){ne + 1}, offset, err));
     PM_TRY(pm_h5_put(f, "/VTKHDF/Types", (const ptrdiff_t[]){ne}, type, err));
 done:
@@ -35,15 +35,15 @@ done:
 }
 
 enum pm_status pm_h5_put_vtk(struct pm_h5 *f, const char *points, ptrdiff_t nn, ptrdiff_t ne,
-                             const int32_t *tet, struct pm_err *err)
+                             ptrdiff_t npe, const int32_t *tet, struct pm_err *err)
 {
     enum pm_status status;
     const ptrdiff_t one = 1;
-    const int64_t points_count = nn, cells = ne, ids = 10 * ne;
+    const int64_t points_count = nn, cells = ne, ids = npe * ne;
     PM_TRY(pm_h5_put(f, "/VTKHDF/NumberOfPoints", &one, &points_count, err));
     PM_TRY(pm_h5_put(f, "/VTKHDF/NumberOfCells", &one, &cells, err));
     PM_TRY(pm_h5_put(f, "/VTKHDF/NumberOfConnectivityIds", &one, &ids, err));
-    PM_TRY(put_cells(f, ne, tet, err));
+    PM_TRY(put_cells(f, ne, npe, tet, err));
     PM_TRY(pm_h5_link(f, points, "/VTKHDF/Points", err));
     PM_TRY(pm_h5_mark_vtk(f, "UnstructuredGrid", err));
 done:

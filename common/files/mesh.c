@@ -34,8 +34,10 @@ static enum pm_status read_arrays(struct pm_h5 *f, struct pm_mesh *m, struct pm_
     PM_TRY(pm_h5_get(f, "/mesh/x_generated", d, &m->x_generated, err));
     PM_TRY(pm_h5_get(f, "/mesh/tet", d, &m->tet, err));
     m->ne = d[0];
+    m->npe = d[1];
     PM_TRY(pm_h5_get(f, "/mesh/tri", d, &m->tri, err));
     m->nf = d[0];
+    m->npf = d[1];
     PM_TRY(pm_h5_get(f, "/mesh/tri_tag", d, &m->tri_tag, err));
     PM_TRY(pm_h5_get(f, "/mesh/surface", d, &m->surface, err));
     PM_TRY(pm_h5_get(f, "/mesh/S", d, &m->S, err));
@@ -57,11 +59,22 @@ done:
 static enum pm_status check_mesh(struct pm_h5 *f, const struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status;
-    if (m->nn < 10 || m->ne < 1 || m->nf < 4)
+    if (m->npe != 10 && m->npe != 4)
+        PM_TRY(
+            pm_h5_refuse(f, err, "/mesh/tet", "has %td nodes in a row, expected 10 or 4", m->npe));
+    if (m->npf != (m->npe == 10 ? 6 : 3))
+        PM_TRY(pm_h5_refuse(f, err, "/mesh/tri",
+                            "has %td nodes in a row, expected %d with %td of "
+                            "a tetrahedron",
+                            m->npf, m->npe == 10 ? 6 : 3, m->npe));
+    if (m->npe == 4 && m->N > 0)
+        PM_TRY(pm_h5_refuse(f, err, "/mesh/control_points",
+                            "is %td, expected 0 in a mesh of 4-node tetrahedra", m->N));
+    if (m->nn < m->npe || m->ne < 1 || m->nf < 4)
         PM_TRY(pm_h5_refuse(f, err, "/mesh/tet", "is empty: %td nodes, %td tetrahedra, %td faces",
                             m->nn, m->ne, m->nf));
-    PM_TRY(pm_check_range(f, "/mesh/tet", m->tet, 10 * m->ne, 0, m->nn, err));
-    PM_TRY(pm_check_range(f, "/mesh/tri", m->tri, 6 * m->nf, 0, m->nn, err));
+    PM_TRY(pm_check_range(f, "/mesh/tet", m->tet, m->npe * m->ne, 0, m->nn, err));
+    PM_TRY(pm_check_range(f, "/mesh/tri", m->tri, m->npf * m->nf, 0, m->nn, err));
     PM_TRY(pm_check_range(f, "/mesh/tri_tag", m->tri_tag, m->nf, PM_FACE_SYM_Z, m->nc + 1, err));
     PM_TRY(pm_check_range(f, "/mesh/surface", m->surface, m->nn, -1, m->nc + 1, err));
     PM_TRY(pm_check_range(f, "/mesh/weight_col", m->wcol, m->nw, 0, m->N, err));
@@ -112,7 +125,7 @@ done:
 static enum pm_status write_arrays(struct pm_h5 *f, const struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status;
-    const ptrdiff_t points[] = {m->nn, 3}, tets[] = {m->ne, 10}, faces[] = {m->nf, 6},
+    const ptrdiff_t points[] = {m->nn, 3}, tets[] = {m->ne, m->npe}, faces[] = {m->nf, m->npf},
                     rows = m->nn + 1;
     const ptrdiff_t three = 3;
     PM_TRY(pm_h5_put(f, "/mesh/x", points, m->x, err));
@@ -145,7 +158,7 @@ enum pm_status pm_mesh_write(struct pm_h5 *f, const struct pm_mesh *m, struct pm
     PM_TRY(pm_h5_put_double(f, "/mesh/min_jacobian", m->min_jacobian, err));
     PM_TRY(pm_h5_put_int(f, "/mesh/origin", m->origin, err));
     PM_TRY(pm_h5_put_int(f, "/mesh/delaunay", m->delaunay, err));
-    PM_TRY(pm_h5_put_vtk(f, "/mesh/x", m->nn, m->ne, m->tet, err));
+    PM_TRY(pm_h5_put_vtk(f, "/mesh/x", m->nn, m->ne, m->npe, m->tet, err));
 done:
     return status;
 }

@@ -23,13 +23,15 @@ struct pm_mesh {
     char failure[512]; /* "" or why there is no mesh (--record-failure): then nothing else is valid
                           but pcase */
     ptrdiff_t nn, ne, nf, nc; /* nodes, tetrahedra, boundary faces, chambers */
+    ptrdiff_t npe, npf;       /* nodes of a tetrahedron and of a face: 10 and 6, or 4 and 3 for a
+                                 linear mesh, which has no control points */
     double *x;                /* reference node positions                         (nn x 3)  [mm] */
     double *x_generated; /* as generated: the Laplace extension [model 5] is built on them (nn x 3)
                             [mm] */
-    int32_t *tet;     /* node ids, gmsh order: vertices, edges (01)(12)(20)(30)(23)(13) (ne x 10) */
-    int32_t *tri;     /* boundary faces, node order vertices, edges (01)(12)(20); normal out of the
-                         solid (nf x 6) */
-    int32_t *tri_tag; /* PM_FACE_*                                         (nf) */
+    int32_t *tet; /* node ids, gmsh order: vertices, edges (01)(12)(20)(30)(23)(13) (ne x npe) */
+    int32_t *tri; /* boundary faces, node order vertices, edges (01)(12)(20); normal out of the
+                     solid (nf x npf) */
+    int32_t *tri_tag;          /* PM_FACE_*                                         (nf) */
     double reference_point[3]; /* end-effector [mm] */
     /* Surface nodes, x_a = sum_m wval phi^m over the row of a (CSR over global control points; the
      * damping of mid-side nodes is included, so x is linear in phi). Empty rows: interior and cap

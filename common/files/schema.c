@@ -35,8 +35,8 @@ static const struct pm_item table[] = {
 
     {"mesh state", "/mesh/x", D, "nn 3", "mm", "reference node positions", 1},
     {"mesh state", "/mesh/x_generated", D, "nn 3", "mm", "node positions as generated, before morphing", 1},
-    {"mesh state", "/mesh/tet", I32, "ne 10", "1", "nodes of the tetrahedra, edges (01)(12)(20)(30)(23)(13)", 1},
-    {"mesh state", "/mesh/tri", I32, "nf 6", "1", "nodes of the boundary faces, edges (01)(12)(20), outward", 1},
+    {"mesh state", "/mesh/tet", I32, "ne npe", "1", "nodes of the tetrahedra, edges (01)(12)(20)(30)(23)(13) where npe = 10", 1},
+    {"mesh state", "/mesh/tri", I32, "nf npf", "1", "nodes of the boundary faces, outward, edges (01)(12)(20) where npf = 6", 1},
     {"mesh state", "/mesh/tri_tag", I32, "nf", "1", "0 exterior, 1.. chambers, -1 base, -2 tip, -3 -4 -5 symmetry planes x y z", 1},
     {"mesh state", "/mesh/chambers", I64, "", "1", "number of chambers", 1},
     {"mesh state", "/mesh/control_points", I64, "", "1", "number of control points N, 0 for an imported mesh", 1},
@@ -56,7 +56,7 @@ static const struct pm_item table[] = {
     {"mesh state", "/VTKHDF/NumberOfConnectivityIds", I64, "1", "1", "VTK: entries of Connectivity", 1},
     {"mesh state", "/VTKHDF/Connectivity", I64, "nv", "1", "VTK: nodes of the cells in VTK order", 1},
     {"mesh state", "/VTKHDF/Offsets", I64, "ne+1", "1", "VTK: first node of each cell", 1},
-    {"mesh state", "/VTKHDF/Types", U8, "ne", "1", "VTK: 24, the quadratic tetrahedron", 1},
+    {"mesh state", "/VTKHDF/Types", U8, "ne", "1", "VTK: 24, the quadratic tetrahedron, or 10, the linear one", 1},
 
     {"state sens", "/load/form", I64, "", "1", "Gauss set: 0 boundary form, 1 volume form", 1},
     {"state sens", "/load/index", I64, "", "1", "point of the Gauss set, -1 for free pressures", 1},

@@ -53,6 +53,8 @@ static void read_block(const cJSON *root, struct block *b)
     *m = (struct pm_mesh){.nn = NN,
                           .ne = NE,
                           .nc = 2,
+                          .npe = 10,
+                          .npf = 6,
                           .x = b->X,
                           .x_generated = b->X,
                           .tet = b->tet,

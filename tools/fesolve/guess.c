@@ -9,8 +9,8 @@
 
 static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
 {
-    return a->nn == b->nn && a->ne == b->ne && a->nc == b->nc &&
-           memcmp(a->tet, b->tet, 10 * (size_t)a->ne * sizeof *a->tet) == 0;
+    return a->nn == b->nn && a->ne == b->ne && a->npe == b->npe && a->nc == b->nc &&
+           memcmp(a->tet, b->tet, (size_t)(a->npe * a->ne) * sizeof *a->tet) == 0;
 }
 
 static enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, struct guess *g,

@@ -51,6 +51,8 @@ static enum pm_status connect(struct curving *c, const struct pm_tetra *tetra, s
     struct pm_mesh *m = c->m;
     m->ne = tetra->ne;
     m->nn = c->nv + c->edges.n;
+    m->npe = 10;
+    m->npf = 6;
     PM_TRY(PM_NEW(m->tet, 10 * m->ne, err));
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         int32_t *v = m->tet + 10 * e;

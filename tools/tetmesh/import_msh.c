@@ -93,6 +93,8 @@ static enum pm_status take_nodes(struct importing *c, struct pm_err *err)
         m->tag[c->place[a]] = raw->tag[a];
     }
     m->ne = raw->ne;
+    m->npe = 10;
+    m->npf = 6;
     PM_TRY(PM_NEW(m->tet, 10 * m->ne, err));
     PM_TRY(PM_NEW(c->vertices, 4 * m->ne, err));
     for (ptrdiff_t e = 0; e < m->ne; e++) {
