@@ -1,51 +1,31 @@
 #include "common/geometry/collide.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <string.h>
 
 #include "common/base/memory.h"
 
-/* Bounding box of a triangle or a node, sorted by its lowest z. */
-struct box {
-    double lo[3], hi[3];
-    ptrdiff_t id;
-};
-
-static int by_z(const void *a, const void *b)
+static void box_of(const double *x, const int32_t *v, double box[6])
 {
-    const struct box *p = a, *q = b;
-    if (p->lo[2] != q->lo[2])
-        return p->lo[2] < q->lo[2] ? -1 : 1;
-    return p->id < q->id ? -1 : p->id > q->id;
-}
-
-static int overlap(const struct box *a, const struct box *b)
-{
-    for (int i = 0; i < 3; i++)
-        if (a->hi[i] < b->lo[i] || b->hi[i] < a->lo[i])
-            return 0;
-    return 1;
-}
-
-static enum pm_status sorted_boxes(const double *x, ptrdiff_t nt, const int32_t *tri,
-                                   struct box **boxes, struct pm_err *err)
-{
-    struct box *box = NULL;
-    *boxes = NULL;
-    if (PM_NEW(box, nt, err) != PM_OK)
-        return PM_SYSTEM;
-    for (ptrdiff_t t = 0; t < nt; t++) {
-        const int32_t *v = tri + 3 * t;
-        for (int i = 0; i < 3; i++) {
-            const double a = x[3 * v[0] + i], b = x[3 * v[1] + i], c = x[3 * v[2] + i];
-            box[t].lo[i] = fmin(a, fmin(b, c));
-            box[t].hi[i] = fmax(a, fmax(b, c));
-        }
-        box[t].id = t;
+    for (int i = 0; i < 3; i++) {
+        const double a = x[3 * v[0] + i], b = x[3 * v[1] + i], c = x[3 * v[2] + i];
+        box[i] = fmin(a, fmin(b, c));
+        box[3 + i] = fmax(a, fmax(b, c));
     }
-    qsort(box, (size_t)nt, sizeof *box, by_z);
-    *boxes = box;
-    return PM_OK;
+}
+
+enum pm_status pm_collide_boxes(const double *x, ptrdiff_t nt, const int32_t *tri,
+                                struct pm_boxes **boxes, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double *box = NULL;
+    PM_TRY(PM_NEW(box, 6 * nt, err));
+    for (ptrdiff_t t = 0; t < nt; t++)
+        box_of(x, tri + 3 * t, box + 6 * t);
+    PM_TRY(pm_boxes_new(nt, box, boxes, err));
+done:
+    pm_free(box);
+    return status;
 }
 
 /* Six times the signed volume of (a, b, c, d). */
@@ -89,28 +69,63 @@ static int edges_pierce(const double *x, const int32_t *v, const int32_t *w, dou
     return 0;
 }
 
+static int meet(const double *x, const int32_t *v, const int32_t *w, double at[3])
+{
+    const int shared = contains(w, v[0]) + contains(w, v[1]) + contains(w, v[2]);
+    return shared < 2 && (edges_pierce(x, v, w, at) || edges_pierce(x, w, v, at));
+}
+
+/* Counts the faces that face f meets and that are not before it; seen[g] = f + 1 marks the counted.
+ */
+static void pierce_face(const struct pm_boxes *boxes, const double *x, const int32_t *tri,
+                        ptrdiff_t parts, ptrdiff_t f, int32_t *id, int32_t *seen,
+                        struct pm_contact *c)
+{
+    for (ptrdiff_t t = parts * f; t < parts * (f + 1); t++) {
+        double box[6], at[3];
+        box_of(x, tri + 3 * t, box);
+        const ptrdiff_t n = pm_boxes_meet(boxes, box, id);
+        for (ptrdiff_t k = 0; k < n; k++) {
+            const ptrdiff_t g = id[k] / parts;
+            if (id[k] <= t || g < f || seen[g] == f + 1 ||
+                !meet(x, tri + 3 * t, tri + 3 * id[k], at))
+                continue;
+            seen[g] = (int32_t)f + 1;
+            if (c->pairs++ == 0) {
+                c->a = t;
+                c->b = id[k];
+                memcpy(c->at, at, sizeof c->at);
+            }
+        }
+    }
+}
+
+enum pm_status pm_collide_faces(const struct pm_boxes *boxes, const double *x, ptrdiff_t nt,
+                                const int32_t *tri, ptrdiff_t parts, struct pm_contact *c,
+                                struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    int32_t *id = NULL, *seen = NULL;
+    *c = (struct pm_contact){.a = -1, .b = -1};
+    PM_TRY(PM_NEW(id, nt, err));
+    PM_TRY(PM_NEW(seen, nt / parts, err));
+    for (ptrdiff_t f = 0; f < nt / parts; f++)
+        pierce_face(boxes, x, tri, parts, f, id, seen, c);
+done:
+    pm_free(id);
+    pm_free(seen);
+    return status;
+}
+
 enum pm_status pm_collide_pierce(const double *x, ptrdiff_t nt, const int32_t *tri,
                                  struct pm_contact *c, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct box *box = NULL;
-    *c = (struct pm_contact){.a = -1, .b = -1};
-    PM_TRY(sorted_boxes(x, nt, tri, &box, err));
-    for (ptrdiff_t i = 0; i < nt; i++) {
-        for (ptrdiff_t j = i + 1; j < nt && box[j].lo[2] <= box[i].hi[2]; j++) {
-            const int32_t *v = tri + 3 * box[i].id, *w = tri + 3 * box[j].id;
-            if (!overlap(&box[i], &box[j]))
-                continue;
-            const int shared = contains(w, v[0]) + contains(w, v[1]) + contains(w, v[2]);
-            if (shared < 2 && (edges_pierce(x, v, w, c->at) || edges_pierce(x, w, v, c->at))) {
-                c->a = box[i].id;
-                c->b = box[j].id;
-                goto done;
-            }
-        }
-    }
+    struct pm_boxes *boxes = NULL;
+    PM_TRY(pm_collide_boxes(x, nt, tri, &boxes, err));
+    PM_TRY(pm_collide_faces(boxes, x, nt, tri, 1, c, err));
 done:
-    pm_free(box);
+    pm_boxes_free(boxes);
     return status;
 }
 
@@ -119,8 +134,8 @@ static double dot(const double *a, const double *b)
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Distance from p to the segment a b. */
-static double to_segment(const double *p, const double *a, const double *b)
+/* Nearest point q of the segment a b to p; returns the squared distance. */
+static double to_segment(const double *p, const double *a, const double *b, double q[3])
 {
     double d[3], e[3];
     for (int i = 0; i < 3; i++) {
@@ -129,14 +144,17 @@ static double to_segment(const double *p, const double *a, const double *b)
     }
     const double dd = dot(d, d);
     const double t = dd > 0 ? fmin(fmax(dot(d, e) / dd, 0), 1) : 0;
-    for (int i = 0; i < 3; i++)
+    for (int i = 0; i < 3; i++) {
+        q[i] = a[i] + t * d[i];
         e[i] -= t * d[i];
-    return sqrt(dot(e, e));
+    }
+    return dot(e, e);
 }
 
-static double to_triangle(const double *p, const double *a, const double *b, const double *c)
+double pm_collide_closest(const double *p, const double *a, const double *b, const double *c,
+                          double q[3])
 {
-    double u[3], v[3], w[3];
+    double u[3], v[3], w[3], r[3];
     for (int i = 0; i < 3; i++) {
         u[i] = b[i] - a[i];
         v[i] = c[i] - a[i];
@@ -147,53 +165,54 @@ static double to_triangle(const double *p, const double *a, const double *b, con
     if (det > 0) {
         const double s = (vv * uw - uv * vw) / det, t = (uu * vw - uv * uw) / det;
         if (s >= 0 && t >= 0 && s + t <= 1) {
-            for (int i = 0; i < 3; i++)
-                w[i] -= s * u[i] + t * v[i];
+            for (int i = 0; i < 3; i++) {
+                q[i] = a[i] + s * u[i] + t * v[i];
+                w[i] = p[i] - q[i];
+            }
             return sqrt(dot(w, w));
         }
     }
-    return fmin(to_segment(p, a, b), fmin(to_segment(p, b, c), to_segment(p, c, a)));
+    const double *corner[4] = {a, b, c, a};
+    double best = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double d2 = to_segment(p, corner[k], corner[k + 1], r);
+        if (d2 < best) {
+            best = d2;
+            memcpy(q, r, sizeof r);
+        }
+    }
+    return sqrt(best);
 }
 
 enum pm_status pm_collide_near(ptrdiff_t nn, const double *x, const double *limit, ptrdiff_t nt,
                                const int32_t *tri, struct pm_contact *c, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct box *box = NULL, *node = NULL;
+    struct pm_boxes *boxes = NULL;
+    int32_t *id = NULL;
     double best = 1;
     *c = (struct pm_contact){.a = -1, .b = -1};
-    PM_TRY(sorted_boxes(x, nt, tri, &box, err));
-    PM_TRY(PM_NEW(node, nn, err));
+    PM_TRY(pm_collide_boxes(x, nt, tri, &boxes, err));
+    PM_TRY(PM_NEW(id, nt, err));
     for (ptrdiff_t a = 0; a < nn; a++) {
-        node[a].id = a;
-        for (int i = 0; i < 3; i++) {
-            node[a].lo[i] = x[3 * a + i] - limit[a];
-            node[a].hi[i] = x[3 * a + i] + limit[a];
-        }
-    }
-    qsort(node, (size_t)nn, sizeof *node, by_z);
-    double tallest = 0;
-    for (ptrdiff_t t = 0; t < nt; t++)
-        tallest = fmax(tallest, box[t].hi[2] - box[t].lo[2]);
-    ptrdiff_t first = 0;
-    for (ptrdiff_t k = 0; k < nn; k++) {
-        const ptrdiff_t a = node[k].id;
-        while (first < nt && box[first].lo[2] < node[k].lo[2] - tallest)
-            first++;
-        for (ptrdiff_t j = first; limit[a] > 0 && j < nt && box[j].lo[2] <= node[k].hi[2]; j++) {
-            const int32_t *v = tri + 3 * box[j].id;
-            if (!overlap(&node[k], &box[j]) || contains(v, (int32_t)a))
+        const double *p = x + 3 * a, r = best * limit[a];
+        const double box[6] = {p[0] - r, p[1] - r, p[2] - r, p[0] + r, p[1] + r, p[2] + r};
+        const ptrdiff_t n = r > 0 ? pm_boxes_meet(boxes, box, id) : 0;
+        for (ptrdiff_t k = 0; k < n; k++) {
+            const int32_t *v = tri + 3 * (ptrdiff_t)id[k];
+            double q[3];
+            if (contains(v, (int32_t)a))
                 continue;
-            const double d = to_triangle(x + 3 * a, x + 3 * v[0], x + 3 * v[1], x + 3 * v[2]);
+            const double d = pm_collide_closest(p, x + 3 * v[0], x + 3 * v[1], x + 3 * v[2], q);
             if (d < best * limit[a]) {
                 best = d / limit[a];
-                *c = (struct pm_contact){a, box[j].id, {x[3 * a], x[3 * a + 1], x[3 * a + 2]}, d};
+                *c = (struct pm_contact){a, id[k], {p[0], p[1], p[2]}, d, 1};
             }
         }
     }
 done:
-    pm_free(box);
-    pm_free(node);
+    pm_boxes_free(boxes);
+    pm_free(id);
     return status;
 }
 
