@@ -78,8 +78,12 @@ check "2.2: the mesh of so many parts" grep -q "140 nodes, 54 tetrahedra" "$work
 check "binary 2.2: the same mesh" cmp "$work/said-2.2" "$work/said-2.2b"
 check "4.1: the same mesh" cmp "$work/said-2.2" "$work/said-4.1"
 "$sphere" write 3 2 linear "$work/linear.msh"
-refused 3 "linear tetrahedra" "'.*linear.msh': group 'body' holds 4-node tetrahedra" import "$work/linear.msh" -o "$out/x.h5"
-expect 0 "linear tetrahedra, promoted" import "$work/linear.msh" --promote -o "$work/linear.h5"
+expect 0 "linear tetrahedra" import "$work/linear.msh" -o "$work/linear.h5" -v
+check "stay linear" grep -q "30 nodes, 54 tetrahedra" "$work/err"
+expect 0 "linear tetrahedra, promoted" import "$work/linear.msh" --promote -o "$work/linear.h5" -v
+check "have middle nodes" grep -q "140 nodes, 54 tetrahedra" "$work/err"
+refused 2 "quadratic tetrahedra, promoted" "have 10 nodes already, expected 4" \
+    import "$work/2.2.msh" --promote -o "$out/x.h5"
 
 # damage NAME PATTERN SED: the file 2.2 edited.
 damage() {

@@ -79,7 +79,7 @@ static void check_volumes(const struct pm_mesh *m, const struct pm_surfaces *s, 
     double volume = 0;
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         double X[30], b[20];
-        pm_quality_gather(m->x, m->tet, e, X);
+        pm_quality_gather(m, m->x, e, X);
         pm_quality_bernstein(X, b);
         for (int k = 0; k < 20; k++)
             volume += b[k] / 120;

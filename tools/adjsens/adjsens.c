@@ -149,10 +149,11 @@ enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common 
     PM_TRY(pm_state_load(common->operands[0], 0, &pt.state, err));
     PM_TRY(pm_work_load(common->operands[1], 0, &pt.work, err));
     if (pt.state.mesh.N == 0) {
-        status = pm_fail(
-            err, PM_INPUT,
-            "cannot use '%s': its mesh has no control points, expected one made from surfaces",
-            common->operands[0]);
+        status = pm_fail(err, PM_INPUT,
+                         "cannot use '%s': its mesh was imported and has no control points, "
+                         "expected one made from "
+                         "surfaces",
+                         common->operands[0]);
         goto done;
     }
     PM_TRY(find_row(common->operands[1], &pt, err));

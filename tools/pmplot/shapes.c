@@ -283,17 +283,19 @@ done:
 
 static void print_faces(const struct pm_state *s, int chamber)
 {
-    static const int part[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+    static const int quadratic[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}},
+                     linear[1][3] = {{0, 1, 2}};
     const struct pm_mesh *m = &s->mesh;
+    const int(*part)[3] = m->npf == 6 ? quadratic : linear, parts = m->npf == 6 ? 4 : 1;
 
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         const int32_t tag = m->tri_tag[f];
         if (chamber > 0 ? tag != chamber : tag > 0)
             continue;
-        for (int p = 0; p < 4; p++) {
+        for (int p = 0; p < parts; p++) {
             double x[3][3], size[3];
             for (int v = 0; v < 3; v++) {
-                const ptrdiff_t a = m->tri[6 * f + part[p][v]];
+                const ptrdiff_t a = m->tri[m->npf * f + part[p][v]];
                 const double *u = s->u + 3 * a;
                 for (int k = 0; k < 3; k++)
                     x[v][k] = m->x[3 * a + k] + u[k];

@@ -222,7 +222,7 @@ static ptrdiff_t damp(struct curving *c)
     ptrdiff_t bad = 0;
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         double X[30];
-        pm_quality_gather(m->x, m->tet, e, X);
+        pm_quality_gather(m, m->x, e, X);
         if (pm_quality_scaled(X) >= pm_curve_bound)
             continue;
         bad++;
@@ -237,7 +237,7 @@ void pm_curve_quality(const struct pm_mesh *m, const double *x, double *scaled, 
     *scaled = *mean_ratio = 1;
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         double X[30];
-        pm_quality_gather(x, m->tet, e, X);
+        pm_quality_gather(m, x, e, X);
         *scaled = fmin(*scaled, pm_quality_scaled(X));
         *mean_ratio = fmin(*mean_ratio, pm_quality_mean_ratio(X));
     }

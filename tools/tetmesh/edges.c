@@ -81,14 +81,9 @@ ptrdiff_t pm_edges_find(const struct pm_edges *e, int32_t a, int32_t b)
     return -1;
 }
 
-struct face {
-    int32_t key[3]; /* ascending */
-    int32_t element, side;
-};
-
 static int by_key(const void *a, const void *b)
 {
-    const struct face *p = a, *q = b;
+    const struct pm_face *p = a, *q = b;
     for (int k = 0; k < 3; k++)
         if (p->key[k] != q->key[k])
             return p->key[k] < q->key[k] ? -1 : 1;
@@ -97,13 +92,13 @@ static int by_key(const void *a, const void *b)
 
 static int by_element(const void *a, const void *b)
 {
-    const struct face *p = a, *q = b;
+    const struct pm_face *p = a, *q = b;
     const ptrdiff_t i = 4 * (ptrdiff_t)p->element + p->side,
                     j = 4 * (ptrdiff_t)q->element + q->side;
     return (i > j) - (i < j);
 }
 
-static ptrdiff_t same_key(const struct face *f, ptrdiff_t k, ptrdiff_t n)
+ptrdiff_t pm_same_faces(const struct pm_face *f, ptrdiff_t k, ptrdiff_t n)
 {
     ptrdiff_t m = 1;
     while (k + m < n && memcmp(f[k].key, f[k + m].key, sizeof f->key) == 0)
@@ -111,24 +106,37 @@ static ptrdiff_t same_key(const struct face *f, ptrdiff_t k, ptrdiff_t n)
     return m;
 }
 
+enum pm_status pm_sorted_faces(ptrdiff_t ne, const int32_t *tet, struct pm_face **face,
+                               struct pm_err *err)
+{
+    struct pm_face *f = NULL;
+    *face = NULL;
+    if (PM_NEW(f, 4 * ne, err) != PM_OK)
+        return PM_SYSTEM;
+    for (ptrdiff_t k = 0; k < 4 * ne; k++) {
+        int32_t *v = f[k].key;
+        f[k].element = (int32_t)(k / 4);
+        f[k].side = (int32_t)(k % 4);
+        for (int i = 0; i < 3; i++)
+            v[i] = tet[4 * (k / 4) + tet_face[k % 4][i]];
+        f[k].turned = ((v[0] > v[1]) + (v[0] > v[2]) + (v[1] > v[2])) % 2;
+        qsort(v, 3, sizeof *v, ascending);
+    }
+    qsort(f, (size_t)(4 * ne), sizeof *f, by_key);
+    *face = f;
+    return PM_OK;
+}
+
 enum pm_status pm_boundary_faces(ptrdiff_t ne, const int32_t *tet, ptrdiff_t *n, int32_t **face,
                                  int32_t **element, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct face *f = NULL;
+    struct pm_face *f = NULL;
     *n = 0;
     *face = *element = NULL;
-    PM_TRY(PM_NEW(f, 4 * ne, err));
-    for (ptrdiff_t k = 0; k < 4 * ne; k++) {
-        f[k].element = (int32_t)(k / 4);
-        f[k].side = (int32_t)(k % 4);
-        for (int i = 0; i < 3; i++)
-            f[k].key[i] = tet[4 * (k / 4) + tet_face[k % 4][i]];
-        qsort(f[k].key, 3, sizeof(int32_t), ascending);
-    }
-    qsort(f, (size_t)(4 * ne), sizeof *f, by_key);
+    PM_TRY(pm_sorted_faces(ne, tet, &f, err));
     for (ptrdiff_t k = 0, m; k < 4 * ne; k += m) {
-        m = same_key(f, k, 4 * ne);
+        m = pm_same_faces(f, k, 4 * ne);
         if (m > 2)
             PM_TRY(pm_fail(err, PM_NUMERIC,
                            "face %d-%d-%d belongs to %td tetrahedra, expected 1 or 2",

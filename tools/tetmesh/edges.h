@@ -21,6 +21,19 @@ void pm_edges_release(struct pm_edges *e);
 /* Its number, -1 if there is none. */
 ptrdiff_t pm_edges_find(const struct pm_edges *e, int32_t a, int32_t b);
 
+struct pm_face {
+    int32_t key[3]; /* vertices, ascending */
+    int32_t element, side;
+    int32_t turned; /* 1: seen from outside the element, key runs clockwise */
+};
+
+/* Faces of ne tetrahedra (4 ne, new memory), those of the same vertices together in the order of
+ * their elements. */
+enum pm_status pm_sorted_faces(ptrdiff_t ne, const int32_t *tet, struct pm_face **face,
+                               struct pm_err *err);
+/* Number of faces from k on, of n, that have the vertices of face k. */
+ptrdiff_t pm_same_faces(const struct pm_face *face, ptrdiff_t k, ptrdiff_t n);
+
 /* Faces of ne tetrahedra that belong to one of them only (n x 3, outward, new memory) with their
  * element. PM_NUMERIC where a face belongs to more than two. */
 enum pm_status pm_boundary_faces(ptrdiff_t ne, const int32_t *tet, ptrdiff_t *n, int32_t **face,

@@ -8,8 +8,13 @@
 enum pm_status pm_import_check_nodes(const struct pm_mesh *m, struct pm_err *err);
 /* det dX/dxi > 0 at vertices, middles of edges, centroid and quadrature points. */
 enum pm_status pm_import_check_elements(const struct pm_mesh *m, struct pm_err *err);
-/* One part. */
-enum pm_status pm_import_check_parts(const struct pm_mesh *m, struct pm_err *err);
+/* One part, joined by faces; at most one tetrahedron on either side of a face. vertices (ne x 4).
+ */
+enum pm_status pm_import_check_parts(const struct pm_mesh *m, const int32_t *vertices,
+                                     struct pm_err *err);
+/* One middle node on every edge. */
+enum pm_status pm_import_check_middles(const struct pm_mesh *m, const int32_t *vertices,
+                                       struct pm_err *err);
 /* Chambers closed up to symmetry planes, symmetry planes planar, and the body held. */
 enum pm_status pm_import_check_faces(const struct pm_mesh *m, struct pm_err *err);
 

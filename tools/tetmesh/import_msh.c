@@ -38,9 +38,11 @@ static int32_t face_tag(const char *name)
     for (size_t k = 0; k < sizeof known / sizeof known[0]; k++)
         if (strcmp(name, known[k].name) == 0)
             return known[k].tag;
-    if (strncmp(name, "chamber", 7) == 0 && name[7] >= '1' && name[7] <= '9' && name[8] == '\0')
-        return name[7] - '0';
-    return NO_TAG;
+    const char *digits = name + 7;
+    if (strncmp(name, "chamber", 7) != 0 || *digits < '1' || *digits > '9' ||
+        strspn(digits, "0123456789") != strlen(digits))
+        return NO_TAG;
+    return strlen(digits) > 6 ? INT32_MAX : (int32_t)strtol(digits, NULL, 10);
 }
 
 static enum pm_status read_groups(struct importing *c, struct pm_err *err)
@@ -70,8 +72,7 @@ done:
     return status;
 }
 
-/* Nodes of the body in the order of their numbers; middles of straight edges follow for 4-node
- * tetrahedra. */
+/* Nodes of the body in the order of their numbers. */
 static enum pm_status take_nodes(struct importing *c, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -93,19 +94,30 @@ static enum pm_status take_nodes(struct importing *c, struct pm_err *err)
         m->tag[c->place[a]] = raw->tag[a];
     }
     m->ne = raw->ne;
-    m->npe = 10;
-    m->npf = 6;
-    PM_TRY(PM_NEW(m->tet, 10 * m->ne, err));
+    m->npe = raw->corners;
+    m->npf = raw->corners == 10 ? 6 : 3;
+    PM_TRY(PM_NEW(m->tet, m->npe * m->ne, err));
     PM_TRY(PM_NEW(c->vertices, 4 * m->ne, err));
-    for (ptrdiff_t e = 0; e < m->ne; e++) {
-        for (int k = 0; k < raw->corners; k++)
-            m->tet[10 * e + k] = c->place[raw->tet[raw->corners * e + k]];
-        memcpy(c->vertices + 4 * e, m->tet + 10 * e, 4 * sizeof *c->vertices);
-    }
+    for (ptrdiff_t k = 0; k < m->npe * m->ne; k++)
+        m->tet[k] = c->place[raw->tet[k]];
+    for (ptrdiff_t e = 0; e < m->ne; e++)
+        memcpy(c->vertices + 4 * e, m->tet + m->npe * e, 4 * sizeof *c->vertices);
 done:
     return status;
 }
 
+static enum pm_status grow(struct pm_mesh *m, ptrdiff_t nn, struct pm_err *err)
+{
+    PM_GROW(m->x, 3 * nn, err);
+    PM_GROW(m->tag, nn, err);
+    PM_GROW(m->tet, 10 * m->ne, err);
+    m->nn = nn;
+    m->npe = 10;
+    m->npf = 6;
+    return PM_OK;
+}
+
+/* 10 nodes for 4: the middles of the straight edges follow the vertices. */
 static enum pm_status promote(struct importing *c, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -113,22 +125,16 @@ static enum pm_status promote(struct importing *c, struct pm_err *err)
     struct pm_edges edges = {0};
     const ptrdiff_t nv = m->nn;
     PM_TRY(pm_edges_new(nv, m->ne, c->vertices, &edges, err));
-    m->nn = nv + edges.n;
-    double *x = pm_realloc(m->x, 3 * m->nn, sizeof *x, err);
-    m->x = x != NULL ? x : m->x;
-    int64_t *tag = pm_realloc(m->tag, m->nn, sizeof *tag, err);
-    m->tag = tag != NULL ? tag : m->tag;
-    if (x == NULL || tag == NULL) {
-        status = PM_SYSTEM;
-        goto done;
-    }
+    PM_TRY(grow(m, nv + edges.n, err));
     for (ptrdiff_t k = 0; k < edges.n; k++) {
-        tag[nv + k] = 0;
+        double *x = m->x + 3 * (nv + k);
+        m->tag[nv + k] = 0;
         for (int i = 0; i < 3; i++)
-            x[3 * (nv + k) + i] = (x[3 * edges.low[k] + i] + x[3 * edges.high[k] + i]) / 2;
+            x[i] = (m->x[3 * edges.low[k] + i] + m->x[3 * edges.high[k] + i]) / 2;
     }
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         int32_t *v = m->tet + 10 * e;
+        memcpy(v, c->vertices + 4 * e, 4 * sizeof *v);
         for (int k = 0; k < 6; k++)
             v[4 + k] = (int32_t)(nv + pm_edges_find(&edges, v[tet_edge[k][0]], v[tet_edge[k][1]]));
     }
@@ -144,17 +150,17 @@ static enum pm_status take_faces(struct importing *c, struct pm_err *err)
     struct pm_mesh *m = c->m;
     int32_t *face = NULL, *element = NULL;
     PM_TRY(pm_boundary_faces(m->ne, c->vertices, &m->nf, &face, &element, err));
-    PM_TRY(PM_NEW(m->tri, 6 * m->nf, err));
+    PM_TRY(PM_NEW(m->tri, m->npf * m->nf, err));
     PM_TRY(PM_NEW(m->tri_tag, m->nf, err));
     for (ptrdiff_t f = 0; f < m->nf; f++) {
-        const int32_t *v = m->tet + 10 * (ptrdiff_t)element[f];
+        const int32_t *v = m->tet + m->npe * (ptrdiff_t)element[f];
         int side = 0;
         for (int s = 0; s < 4; s++)
             if (v[tet_face[s][0]] == face[3 * f] && v[tet_face[s][1]] == face[3 * f + 1] &&
                 v[tet_face[s][2]] == face[3 * f + 2])
                 side = s;
-        for (int k = 0; k < 6; k++)
-            m->tri[6 * f + k] = v[tet_face[side][k]];
+        for (ptrdiff_t k = 0; k < m->npf; k++)
+            m->tri[m->npf * f + k] = v[tet_face[side][k]];
         m->tri_tag[f] = NO_TAG;
     }
 done:
@@ -216,7 +222,7 @@ static enum pm_status tag_faces(struct importing *c, struct pm_err *err)
     int exterior = 0;
     PM_TRY(PM_NEW(keys, m->nf, err));
     for (ptrdiff_t f = 0; f < m->nf; f++) {
-        memcpy(keys[f].v, m->tri + 6 * f, sizeof keys[f].v);
+        memcpy(keys[f].v, m->tri + m->npf * f, sizeof keys[f].v);
         qsort(keys[f].v, 3, sizeof keys[f].v[0], ascending);
         keys[f].f = f;
     }
@@ -226,7 +232,7 @@ static enum pm_status tag_faces(struct importing *c, struct pm_err *err)
     for (ptrdiff_t g = 0; g < c->raw.ng; g++)
         exterior |= c->tag[g] == PM_FACE_EXTERIOR;
     for (ptrdiff_t f = 0; f < m->nf; f++) {
-        const int32_t *v = m->tri + 6 * f;
+        const int32_t *v = m->tri + m->npf * f;
         if (m->tri_tag[f] == NO_TAG && exterior)
             PM_TRY(
                 pm_fail(err, PM_INPUT, "the boundary face of nodes %lld %lld %lld is in no group",
@@ -239,20 +245,30 @@ done:
     return status;
 }
 
-/* Centroid of the curved faces of the tip. */
+/* Nodes of face f (6 x 3); a 3-node one gets the middles of its edges. */
+static void gather_face(const struct pm_mesh *m, ptrdiff_t f, double X[18])
+{
+    for (ptrdiff_t a = 0; a < m->npf; a++)
+        memcpy(X + 3 * a, m->x + 3 * (ptrdiff_t)m->tri[m->npf * f + a], 3 * sizeof *X);
+    for (int k = 0; k < 9 && m->npf == 3; k++)
+        X[9 + k] = (X[k] + X[(k + 3) % 9]) / 2;
+}
+
+/* Centroid of the tip of the whole body: that of the faces of the tip, moved to the symmetry
+ * planes. */
 static void find_reference(struct pm_mesh *m)
 {
     double sum[3] = {0}, area = 0;
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         for (int q = 0; q < PM_TRI_POINTS && m->tri_tag[f] == PM_FACE_TIP; q++) {
-            double N[6], dN[12], x[3] = {0}, u[3] = {0}, v[3] = {0};
+            double X[18], N[6], dN[12], x[3] = {0}, u[3] = {0}, v[3] = {0};
+            gather_face(m, f, X);
             pm_tri6_shape(pm_tri_xi[q], N, dN);
             for (int a = 0; a < 6; a++)
                 for (int i = 0; i < 3; i++) {
-                    const double X = m->x[3 * (ptrdiff_t)m->tri[6 * f + a] + i];
-                    x[i] += N[a] * X;
-                    u[i] += dN[2 * a] * X;
-                    v[i] += dN[2 * a + 1] * X;
+                    x[i] += N[a] * X[3 * a + i];
+                    u[i] += dN[2 * a] * X[3 * a + i];
+                    v[i] += dN[2 * a + 1] * X[3 * a + i];
                 }
             const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
                                  u[0] * v[1] - u[1] * v[0]};
@@ -264,6 +280,11 @@ static void find_reference(struct pm_mesh *m)
     }
     for (int i = 0; i < 3; i++)
         m->reference_point[i] = area > 0 ? sum[i] / area : 0;
+    for (ptrdiff_t f = 0; f < m->nf && area > 0; f++) {
+        const int axis = PM_FACE_SYM_X - m->tri_tag[f];
+        if (axis >= 0 && axis < 3)
+            m->reference_point[axis] = m->x[3 * (ptrdiff_t)m->tri[m->npf * f] + axis];
+    }
 }
 
 /* No surface, no weights. */
@@ -290,23 +311,24 @@ done:
     return status;
 }
 
-static enum pm_status import(const char *path, int may_promote, struct pm_mesh *m,
+static enum pm_status import(const char *path, int promote_it, struct pm_mesh *m,
                              struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct importing c = {.m = m};
     PM_TRY(pm_gmsh_read(path, &c.raw, err));
-    if (c.raw.corners == 4 && !may_promote)
-        PM_TRY(
-            pm_fail(err, PM_INPUT,
-                    "group 'body' holds 4-node tetrahedra, expected 10-node ones (or --promote)"));
+    if (c.raw.corners == 10 && promote_it)
+        PM_TRY(pm_fail(err, PM_USAGE,
+                       "--promote: the tetrahedra of group 'body' have 10 nodes already, expected "
+                       "4"));
     PM_TRY(read_groups(&c, err));
     PM_TRY(take_nodes(&c, err));
     PM_TRY(pm_import_check_nodes(m, err));
-    if (c.raw.corners == 4)
+    if (promote_it)
         PM_TRY(promote(&c, err));
     PM_TRY(pm_import_check_elements(m, err));
-    PM_TRY(pm_import_check_parts(m, err));
+    PM_TRY(pm_import_check_parts(m, c.vertices, err));
+    PM_TRY(pm_import_check_middles(m, c.vertices, err));
     PM_TRY(take_faces(&c, err));
     PM_TRY(tag_faces(&c, err));
     PM_TRY(pm_import_check_faces(m, err));

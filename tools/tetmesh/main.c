@@ -9,7 +9,7 @@ static const struct pm_option options[] = {
      "where the surfaces cannot be meshed, write a mesh file that says why"},
     {"timeout", 't', "S", "give up a run of the mesher after this many seconds"},
     {"import", 'i', "FILE.msh", "take this gmsh file instead of surfaces"},
-    {"promote", 0, NULL, "import: raise 4-node tetrahedra to 10 nodes with straight edges"},
+    {"promote", 0, NULL, "import: give 4-node tetrahedra 10 nodes, with straight edges"},
     {"reference", 0, "X,Y,Z",
      "import: reference point of the end-effector (default: centroid of the tip)"},
     {"case", 0, "CASE.ini", "import: case with the material"},

@@ -1,9 +1,8 @@
-/* Validity of curved 10-node tetrahedra. */
+/* Validity of tetrahedra, those of 10 nodes curved. */
 #ifndef PM_QUALITY_H
 #define PM_QUALITY_H
 
-#include <stddef.h>
-#include <stdint.h>
+#include "common/files/mesh.h"
 
 /* det dX/dxi of a tet10 is a cubic polynomial; b are its 20 Bernstein coefficients, so that min b
  * is a lower bound over the whole element. Order: u <= v <= w over the vertices, lexicographic. X
@@ -15,7 +14,8 @@ double pm_quality_scaled(const double X[30]);
 /* Mean ratio of the straight tetrahedron of the four vertices: 12 (3 V)^(2/3) / sum of squared
  * edges, 1 for the regular one, <= 0 inverted. */
 double pm_quality_mean_ratio(const double X[12]);
-/* Node positions of element e (10 x 3). */
-void pm_quality_gather(const double *x, const int32_t *tet, ptrdiff_t e, double X[30]);
+/* Nodes of element e (10 x 3) at the nodal positions x; a 4-node one gets the middles of its edges.
+ */
+void pm_quality_gather(const struct pm_mesh *m, const double *x, ptrdiff_t e, double X[30]);
 
 #endif

@@ -21,7 +21,7 @@ static ptrdiff_t find_bad(const struct pm_mesh *m, double bound, int32_t *ends)
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         const int32_t *v = m->tet + 10 * e;
         double X[30];
-        pm_quality_gather(m->x, m->tet, e, X);
+        pm_quality_gather(m, m->x, e, X);
         if (pm_quality_scaled(X) >= bound)
             continue;
         bad++;

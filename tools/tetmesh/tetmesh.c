@@ -94,6 +94,11 @@ static enum pm_status reuse(const char *path, const struct pm_surfaces *s, struc
     PM_TRY(pm_mesh_load(path, 1, m, err));
     if (m->failure[0] != '\0') {
         pm_log(0, "previous mesh '%s' records a failure: meshing anew", path);
+    } else if (m->N == 0) {
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "cannot use '%s': an imported mesh has no control points, expected one made "
+                       "from surfaces",
+                       path));
     } else {
         PM_TRY(pm_weights_same(m, s, &same, err));
         if (same)
