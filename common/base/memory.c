@@ -2,6 +2,7 @@
 
 #include <stdint.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* Requests until the one that fails; 0: none. Only tests set it. */
 static long countdown;
@@ -31,6 +32,17 @@ void *pm_calloc(ptrdiff_t n, size_t size, struct pm_err *err)
     void *p = bytes == 0 || refuse() ? NULL : calloc(1, bytes);
     if (p == NULL)
         pm_fail(err, PM_SYSTEM, "out of memory: %td items of %zu bytes", n, size);
+    return p;
+}
+
+void *pm_calloc_aligned(ptrdiff_t n, size_t size, struct pm_err *err)
+{
+    size_t bytes = checked(n > 0 ? n : 1, size);
+    void *p = bytes == 0 || refuse() ? NULL : aligned_alloc(size, bytes);
+    if (p == NULL)
+        pm_fail(err, PM_SYSTEM, "out of memory: %td items of %zu bytes", n, size);
+    else
+        memset(p, 0, bytes);
     return p;
 }
 

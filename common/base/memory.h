@@ -8,6 +8,8 @@
 
 /* n * size zeroed bytes (never NULL for n = 0), or NULL with err set to PM_SYSTEM. */
 void *pm_calloc(ptrdiff_t n, size_t size, struct pm_err *err);
+/* The same at an address that is a multiple of `size` (a power of 2): for vector types. */
+void *pm_calloc_aligned(ptrdiff_t n, size_t size, struct pm_err *err);
 /* Resizes to n * size bytes; on failure returns NULL with err set and leaves p alone. */
 void *pm_realloc(void *p, ptrdiff_t n, size_t size, struct pm_err *err);
 void pm_free(void *p);

@@ -11,7 +11,7 @@ enum pm_status pm_jacobian(struct pm_model *m, const struct pm_config *c, double
     enum pm_status status;
     ptrdiff_t nc = m->mesh->nc, nq = m->nq;
     double *dV = NULL;
-    PM_TRY(PM_NEW(dV, 3 * m->mesh->nn, err));
+    PM_TRY(PM_NEW(dV, 3 * m->nn, err));
     for (ptrdiff_t r = 0; r < nc; r++) {
         pm_model_volume_gradient(m, c, r, dV);
         pm_model_reduce(m, c, dV, Jq + r * nq);
@@ -71,7 +71,7 @@ static void contract1(const struct pm_rotation *rot, const double v[3], double D
 static void prepare_column(struct adjoint *A, struct column *k, const double *v1, const double *Jq)
 {
     struct pm_model *m = A->m;
-    ptrdiff_t nn = m->mesh->nn;
+    ptrdiff_t nn = m->nn;
     double D[9];
     memcpy(k->vt, v1 + m->nq - 6, sizeof k->vt);
     memcpy(k->Jt, Jq + m->nq - 6, sizeof k->Jt);
@@ -100,7 +100,7 @@ static void subtract_second_order(struct adjoint *A, const struct column *k, dou
 {
     struct pm_model *m = A->m;
     pm_model_reduce(m, A->cfg, k->s, work);
-    for (ptrdiff_t a = 0; a < m->mesh->nn; a++) {
+    for (ptrdiff_t a = 0; a < m->nn; a++) {
         const double *r = m->arm + 3 * a;
         for (int i = 0; i < 3 && m->kind[a] == PM_NODE_TIP; i++) {
             double Dv[9] = {0}, DJ[9] = {0}, DvJ[9] = {0}, y[3], sum = 0.0;
@@ -126,7 +126,7 @@ static void subtract_second_order(struct adjoint *A, const struct column *k, dou
 static enum pm_status allocate(struct adjoint *A, const double *b, struct pm_err *err)
 {
     enum pm_status status;
-    ptrdiff_t nc = A->m->mesh->nc, size = 3 * A->m->mesh->nn;
+    ptrdiff_t nc = A->m->mesh->nc, size = 3 * A->m->nn;
     for (ptrdiff_t r = 0; r < nc; r++) {
         int used = 0;
         for (int l = 0; l < 6; l++)
@@ -155,7 +155,7 @@ static enum pm_status solve_adjoints(struct adjoint *A, const double *Jq, const 
 {
     enum pm_status status;
     struct pm_model *m = A->m;
-    ptrdiff_t nc = m->mesh->nc, nq = m->nq, nn3 = 3 * m->mesh->nn;
+    ptrdiff_t nc = m->mesh->nc, nq = m->nq, nn3 = 3 * m->nn;
     double *v2 = A->v + A->n * nq, *work = NULL, *Kx = NULL;
     PM_TRY(PM_NEW(work, nq, err));
     PM_TRY(PM_NEW(Kx, nn3, err));
@@ -193,7 +193,7 @@ static void add_explicit(const struct adjoint *A, const double *s, const double 
         contract1(&A->rot, A->col[k].Jt + 3, RJ[k]);
         contract2(&A->rot, A->col[k].vt + 3, A->col[k].Jt + 3, RvJ[k]);
     }
-    for (ptrdiff_t a = 0; a < m->mesh->nn; a++) {
+    for (ptrdiff_t a = 0; a < m->nn; a++) {
         ptrdiff_t j = m->pattern.eq[a];
         if (m->kind[a] != PM_NODE_TIP) {
             for (int i = 0; i < 3; i++)
@@ -228,7 +228,7 @@ enum pm_status pm_adjoint(struct pm_model *m, const struct pm_config *c, const d
 {
     enum pm_status status;
     struct adjoint A = {.m = m, .cfg = c, .p = p, .f = f, .scale = scale};
-    ptrdiff_t nn3 = 3 * m->mesh->nn;
+    ptrdiff_t nn3 = 3 * m->nn;
     double *g = NULL, *s = NULL;
     pm_rotation_at(c->U + 3, 1, &A.rot);
     memset(D_ref, 0, 3 * sizeof *D_ref);

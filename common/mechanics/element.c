@@ -5,224 +5,341 @@
 
 #include "common/mechanics/tensor.h"
 
-enum { NQ = PM_TET_POINTS };
+enum { NQ = PM_MOST_POINTS, NODES = PM_MOST_NODES };
 
-/* Deformation at the points: F = I + grad u, C = cof F, J - 1 without cancellation; the element
- * mean of J - 1. */
+/* Deformation at the points: F = I + grad u, C = cof F, J - 1 without cancellation, and its
+ * projection. */
 struct kinematics {
-    double F[NQ][9], C[NQ][9], Jm1[NQ], mean, V;
+    pm_lanes F[NQ][9], C[NQ][9], Jm1[NQ], bar[NQ];
 };
 
-enum pm_status pm_element_blend(const char *name, const struct pm_law *law, double *blend,
-                                struct pm_err *err)
+double pm_element_blend(const struct pm_element_type *type, const struct pm_law *law)
 {
-    double b = 2.0 * law->mu / law->kappa;
-    if (strcmp(name, "tet10-blend") == 0)
-        *blend = b < 1.0 ? b : 1.0;
-    else if (strcmp(name, "tet10") == 0)
-        *blend = 1.0;
-    else if (strcmp(name, "tet10-mean") == 0)
-        *blend = 0.0;
-    else
-        return pm_fail(err, PM_USAGE,
-                       "unknown element '%s', expected tet10-blend, tet10 or tet10-mean", name);
-    return PM_OK;
+    return type->stiffness < 0.0 ? 1.0 : fmin(1.0, type->stiffness * law->mu / law->kappa);
 }
 
-static void deform(const struct pm_element *el, const double *u, struct kinematics *k)
+/* ---- geometry ---- */
+
+/* Modes 1, xi_1, xi_2, xi_3 made orthonormal (modified Gram-Schmidt). */
+static void orthonormal_modes(const struct pm_element_type *t, const double *w, double *phi)
 {
-    k->mean = k->V = 0.0;
-    for (int q = 0; q < NQ; q++) {
-        double *F = k->F[q];
-        pm_gradient(u, el->dN + 30 * q, F);
-        k->Jm1[q] = pm_det_minus_one(F);
+    for (int k = 0; k < t->modes; k++) {
+        double *p = phi + k * t->nq, norm = 0.0;
+        for (int q = 0; q < t->nq; q++)
+            p[q] = k == 0 ? 1.0 : t->xi[q][k - 1];
+        for (int l = 0; l < k; l++) {
+            double s = 0.0;
+            for (int q = 0; q < t->nq; q++)
+                s += w[q] * p[q] * phi[l * t->nq + q];
+            for (int q = 0; q < t->nq; q++)
+                p[q] -= s * phi[l * t->nq + q];
+        }
+        for (int q = 0; q < t->nq; q++)
+            norm += w[q] * p[q] * p[q];
+        for (int q = 0; q < t->nq; q++)
+            p[q] /= sqrt(norm);
+    }
+}
+
+double pm_element_geometry(const struct pm_element_type *t, const double *X, int lane, pm_lanes *dN,
+                           pm_lanes *w, pm_lanes *phi)
+{
+    double low = INFINITY, weight[NQ], mode[PM_MOST_MODES * NQ];
+    for (int q = 0; q < t->nq; q++) {
+        double ref[3 * NODES], D[9], C[9];
+        pm_element_shape_gradient(t, q, ref);
+        pm_gradient(t->npe, X, ref, D); /* D_iJ = dX_i/dxi_J */
+        double det = pm_cofactor(D, C);
+        low = fmin(low, det);
+        weight[q] = t->weight[q] * det;
+        w[q][lane] = weight[q];
+        /* dN/dX_i = dN/dxi_J (D^-1)_Ji, (D^-1)_Ji = C_iJ / det */
+        for (int a = 0; a < t->npe; a++)
+            for (int i = 0; i < 3; i++)
+                dN[3 * (t->npe * q + a) + i][lane] =
+                    (C[3 * i] * ref[3 * a] + C[3 * i + 1] * ref[3 * a + 1] +
+                     C[3 * i + 2] * ref[3 * a + 2]) /
+                    det;
+    }
+    if (low > 0.0) {
+        orthonormal_modes(t, weight, mode);
+        for (int k = 0; k < t->modes * t->nq; k++)
+            phi[k][lane] = mode[k];
+    }
+    return low;
+}
+
+/* ---- kinematics ---- */
+
+static const pm_lanes *gradients(const struct pm_element *el, int q)
+{
+    return el->dN + 3 * el->type->npe * q;
+}
+
+/* bar = sum_k phi_k (sum_q w phi_k j): the projection of point values j (nq) on the modes. */
+static void project(const struct pm_element *el, const pm_lanes *j, pm_lanes *bar)
+{
+    int nq = el->type->nq;
+    memset(bar, 0, (size_t)nq * sizeof *bar);
+    for (int k = 0; k < el->type->modes; k++) {
+        const pm_lanes *phi = el->phi + k * nq;
+        pm_lanes s = {0};
+        for (int q = 0; q < nq; q++)
+            s += el->w[q] * phi[q] * j[q];
+        for (int q = 0; q < nq; q++)
+            bar[q] += s * phi[q];
+    }
+}
+
+static void deform(const struct pm_element *el, const pm_lanes *u, struct kinematics *k)
+{
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes *F = k->F[q];
+        pm_lanes_gradient(el->type->npe, u, gradients(el, q), F);
+        k->Jm1[q] = pm_lanes_det_minus_one(F);
         F[0] += 1.0;
         F[4] += 1.0;
         F[8] += 1.0;
-        pm_cofactor(F, k->C[q]);
-        k->mean += el->w[q] * k->Jm1[q];
-        k->V += el->w[q];
+        pm_lanes_cofactor(F, k->C[q]);
     }
-    k->mean /= k->V;
+    project(el, k->Jm1, k->bar);
 }
 
-/* U = kappa/2 (J - 1)^2: the pressure b U'(J_q) + (1 - b) U'(Jbar). */
-static double pressure_at(const struct pm_element *el, const struct kinematics *k, int q)
+/* kappa (b j + (1 - b) bar j): with U = kappa/2 (J - 1)^2 the pressure at J - 1, and its variations
+ * at those of J. */
+static pm_lanes blend(const struct pm_element *el, pm_lanes j, pm_lanes bar)
 {
-    return el->law->kappa * (el->blend * k->Jm1[q] + (1.0 - el->blend) * k->mean);
+    return el->law->kappa * (el->blend * j + (1.0 - el->blend) * bar);
 }
 
 /* f_a += w S grad N_a */
-static void scatter(double w, const double S[9], const double *dN, double *f)
+static void scatter(int npe, pm_lanes w, const pm_lanes S[9], const pm_lanes *dN, pm_lanes *f)
 {
-    for (int a = 0; a < 10; a++)
+    pm_lanes wS[9];
+    for (int k = 0; k < 9; k++)
+        wS[k] = w * S[k];
+    for (int a = 0; a < npe; a++)
         for (int i = 0; i < 3; i++)
-            f[3 * a + i] += w * (S[3 * i] * dN[3 * a] + S[3 * i + 1] * dN[3 * a + 1] +
-                                 S[3 * i + 2] * dN[3 * a + 2]);
+            f[3 * a + i] += wS[3 * i] * dN[3 * a] + wS[3 * i + 1] * dN[3 * a + 1] +
+                            wS[3 * i + 2] * dN[3 * a + 2];
 }
 
-double pm_element_energy(const struct pm_element *el, const double *u, double *f, double *min_det)
+static void clear(const struct pm_element *el, pm_lanes *f)
+{
+    memset(f, 0, 3 * (size_t)el->type->npe * sizeof *f);
+}
+
+void pm_element_energy(const struct pm_element *el, const pm_lanes *u, pm_lanes *f,
+                       pm_lanes *energy, pm_lanes *min_det)
 {
     struct kinematics k;
-    double b = el->blend, kappa = el->law->kappa, low = INFINITY, E;
+    double b = el->blend, kappa = el->law->kappa;
+    pm_lanes E = {0}, low;
     deform(el, u, &k);
-    for (int q = 0; q < NQ; q++)
-        low = fmin(low, 1.0 + k.Jm1[q]);
-    *min_det = fmin(*min_det, low);
-    if (!(low > 0.0))
-        return INFINITY;
-    E = 0.5 * (1.0 - b) * kappa * k.V * k.mean * k.mean;
-    for (int q = 0; q < NQ; q++) {
-        double P[9];
-        E += el->w[q] * (pm_law_stress(el->law, k.F[q], f != NULL ? P : NULL) +
-                         0.5 * b * kappa * k.Jm1[q] * k.Jm1[q]);
+    low = 1.0 + k.Jm1[0];
+    for (int q = 0; q < el->type->nq; q++)
+        for (int l = 0; l < PM_LANES; l++)
+            low[l] = fmin(low[l], 1.0 + k.Jm1[q][l]);
+    if (f != NULL)
+        clear(el, f);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes P[9], W;
+        pm_law_stress(el->law, k.F[q], &W, f != NULL ? P : NULL);
+        E += el->w[q] *
+             (W + 0.5 * kappa * (b * k.Jm1[q] * k.Jm1[q] + (1.0 - b) * k.bar[q] * k.bar[q]));
         if (f == NULL)
             continue;
-        pm_axpy9(pressure_at(el, &k, q), k.C[q], P);
-        scatter(el->w[q], P, el->dN + 30 * q, f);
+        pm_lanes_axpy9(blend(el, k.Jm1[q], k.bar[q]), k.C[q], P);
+        scatter(el->type->npe, el->w[q], P, gradients(el, q), f);
     }
-    return E;
+    for (int l = 0; l < PM_LANES; l++)
+        (*energy)[l] = low[l] > 0.0 ? E[l] : (double)INFINITY;
+    *min_det = low;
 }
 
-/* K += w dN A dN for one point: blocks a <= b. */
-static void add_point(double w, const double A[81], const double *dN, double *K)
+/* ---- tangent ---- */
+
+/* T_(iI)j = w sum_J A_iIjJ n_J */
+static void push(pm_lanes w, const pm_lanes A[81], const pm_lanes n[3], pm_lanes T[27])
 {
-    for (int b = 0; b < 10; b++) {
-        double T[27]; /* T_(iI)j = sum_J A_iIjJ dN_bJ */
-        const double *n = dN + 3 * b;
-        for (int k = 0; k < 9; k++)
-            for (int j = 0; j < 3; j++)
-                T[3 * k + j] = w * (A[9 * k + 3 * j] * n[0] + A[9 * k + 3 * j + 1] * n[1] +
-                                    A[9 * k + 3 * j + 2] * n[2]);
-        for (int a = 0; a <= b; a++) {
-            const double *m = dN + 3 * a;
-            for (int i = 0; i < 3; i++)
-                for (int j = 0; j < 3; j++)
-                    K[30 * (3 * a + i) + 3 * b + j] +=
-                        m[0] * T[9 * i + j] + m[1] * T[9 * i + 3 + j] + m[2] * T[9 * i + 6 + j];
+    const pm_lanes m[3] = {w * n[0], w * n[1], w * n[2]};
+    for (int k = 0; k < 9; k++)
+        for (int j = 0; j < 3; j++)
+            T[3 * k + j] =
+                A[9 * k + 3 * j] * m[0] + A[9 * k + 3 * j + 1] * m[1] + A[9 * k + 3 * j + 2] * m[2];
+}
+
+/* K_ij += m_I T_(iI)j */
+static void pull(const pm_lanes m[3], const pm_lanes T[27], pm_lanes K[9])
+{
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            K[3 * i + j] += m[0] * T[9 * i + j] + m[1] * T[9 * i + 3 + j] + m[2] * T[9 * i + 6 + j];
+}
+
+/* Blocks of column b, points first: they stay in registers. */
+static void add_column(const struct pm_element *el, pm_lanes A[][81], int b, pm_lanes *K)
+{
+    pm_lanes T[NQ][27];
+    int nq = el->type->nq;
+    for (int q = 0; q < nq; q++)
+        push(el->w[q], A[q], gradients(el, q) + 3 * b, T[q]);
+    for (int a = 0; a <= b; a++) {
+        pm_lanes block[9];
+        memset(block, 0, sizeof block);
+        for (int q = 0; q < nq; q++)
+            pull(gradients(el, q) + 3 * a, T[q], block);
+        memcpy(K + 9 * (b * (b + 1) / 2 + a), block, sizeof block);
+    }
+}
+
+/* K += (1 - b) kappa sum_k B_k B_k^T, B_k = sum_q w phi_k C grad N */
+static void add_modes(const struct pm_element *el, const struct kinematics *k, pm_lanes *K)
+{
+    double s = (1.0 - el->blend) * el->law->kappa;
+    int npe = el->type->npe, nq = el->type->nq;
+    for (int m = 0; m < el->type->modes; m++) {
+        pm_lanes B[3 * NODES];
+        memset(B, 0, sizeof B);
+        for (int q = 0; q < nq; q++)
+            scatter(npe, el->w[q] * el->phi[m * nq + q], k->C[q], gradients(el, q), B);
+        for (int b = 0; b < npe; b++)
+            for (int j = 0; j < 3; j++) {
+                pm_lanes t = s * B[3 * b + j];
+                for (int a = 0; a <= b; a++)
+                    for (int i = 0; i < 3; i++)
+                        K[9 * (b * (b + 1) / 2 + a) + 3 * i + j] += t * B[3 * a + i];
+            }
+    }
+}
+
+void pm_element_tangent(const struct pm_element *el, const pm_lanes *u, const pm_lanes *pressure,
+                        pm_lanes *K)
+{
+    struct kinematics k;
+    pm_lanes A[NQ][81];
+    double bk = el->blend * el->law->kappa;
+    deform(el, u, &k);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes X[81], pi = pressure != NULL ? pressure[q] : blend(el, k.Jm1[q], k.bar[q]);
+        pm_law_tangent(el->law, k.F[q], A[q]);
+        pm_lanes_cross_matrix(k.F[q], X);
+        for (int m = 0; m < 9; m++) {
+            pm_lanes c = bk * k.C[q][m];
+            for (int n = 0; n < 9; n++)
+                A[q][9 * m + n] += pi * X[9 * m + n] + c * k.C[q][n];
         }
     }
+    for (int b = 0; b < el->type->npe; b++)
+        add_column(el, A, b, K);
+    if (el->blend < 1.0)
+        add_modes(el, &k, K);
 }
 
-void pm_element_tangent(const struct pm_element *el, const double *u, const double *pressure,
-                        double *K)
+void pm_element_pressure(const struct pm_element *el, const pm_lanes *u, const pm_lanes *du,
+                         pm_lanes *pressure)
 {
     struct kinematics k;
-    double kappa = el->law->kappa, B[30] = {0};
+    pm_lanes J[NQ] = {{0}}, bar[NQ];
     deform(el, u, &k);
-    memset(K, 0, 900 * sizeof *K);
-    for (int q = 0; q < NQ; q++) {
-        double A[81], X[81], pi = pressure != NULL ? pressure[q] : pressure_at(el, &k, q);
-        pm_law_tangent(el->law, k.F[q], A);
-        pm_cross_matrix(k.F[q], X);
-        for (int m = 0; m < 81; m++)
-            A[m] += pi * X[m] + el->blend * kappa * k.C[q][m / 9] * k.C[q][m % 9];
-        add_point(el->w[q], A, el->dN + 30 * q, K);
-        scatter(el->w[q], k.C[q], el->dN + 30 * q, B);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes G[9];
+        pm_lanes_gradient(el->type->npe, du, gradients(el, q), G);
+        J[q] = k.Jm1[q] + pm_lanes_dot9(k.C[q], G);
     }
-    double s = (1.0 - el->blend) * kappa / k.V;
-    for (int m = 0; m < 30; m++)
-        for (int n = 3 * (m / 3); n < 30; n++)
-            K[30 * m + n] += s * B[m] * B[n];
-    for (int m = 0; m < 30; m++)
-        for (int n = 0; n < m; n++)
-            K[30 * m + n] = K[30 * n + m];
+    project(el, J, bar);
+    for (int q = 0; q < el->type->nq; q++)
+        pressure[q] = blend(el, J[q], bar[q]);
 }
 
-void pm_element_pressure(const struct pm_element *el, const double *u, const double *du,
-                         double *pressure)
-{
-    struct kinematics k;
-    double dJ[NQ], mean = 0.0;
-    deform(el, u, &k);
-    for (int q = 0; q < NQ; q++) {
-        double G[9];
-        pm_gradient(du, el->dN + 30 * q, G);
-        dJ[q] = k.Jm1[q] + pm_dot9(k.C[q], G);
-        mean += el->w[q] * dJ[q];
-    }
-    for (int q = 0; q < NQ; q++)
-        pressure[q] = el->law->kappa * (el->blend * dJ[q] + (1.0 - el->blend) * mean / k.V);
-}
+/* ---- contractions ---- */
 
-void pm_element_apply(const struct pm_element *el, const double *u, const double *v, double *f)
+void pm_element_apply(const struct pm_element *el, const pm_lanes *u, const pm_lanes *v,
+                      pm_lanes *f)
 {
     struct kinematics k;
-    double G[NQ][9], j1[NQ], t1 = 0.0, b = el->blend, kappa = el->law->kappa;
+    pm_lanes G[NQ][9], j1[NQ], t1[NQ];
     deform(el, u, &k);
-    for (int q = 0; q < NQ; q++) {
-        pm_gradient(v, el->dN + 30 * q, G[q]);
-        j1[q] = pm_dot9(k.C[q], G[q]);
-        t1 += el->w[q] * j1[q] / k.V;
+    clear(el, f);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes_gradient(el->type->npe, v, gradients(el, q), G[q]);
+        j1[q] = pm_lanes_dot9(k.C[q], G[q]);
     }
-    for (int q = 0; q < NQ; q++) {
-        double S[9], FG[9];
+    project(el, j1, t1);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes S[9], FG[9];
         pm_law_apply(el->law, k.F[q], G[q], S);
-        pm_cross9(k.F[q], G[q], FG);
-        pm_axpy9(kappa * (b * j1[q] + (1.0 - b) * t1), k.C[q], S);
-        pm_axpy9(pressure_at(el, &k, q), FG, S);
-        scatter(el->w[q], S, el->dN + 30 * q, f);
+        pm_lanes_cross9(k.F[q], G[q], FG);
+        pm_lanes_axpy9(blend(el, j1[q], t1[q]), k.C[q], S);
+        pm_lanes_axpy9(blend(el, k.Jm1[q], k.bar[q]), FG, S);
+        scatter(el->type->npe, el->w[q], S, gradients(el, q), f);
     }
 }
 
 /* Gradients G, H of two directions with j1 = C:G and j2 = (F x G):H at the points, and their
- * element means. */
+ * projections t. */
 struct variation {
-    double G[NQ][9], H[NQ][9], FG[NQ][9], FH[NQ][9], jG[NQ], jH[NQ], j2[NQ], tG, tH, t2;
+    pm_lanes G[NQ][9], H[NQ][9], FG[NQ][9], FH[NQ][9], jG[NQ], jH[NQ], j2[NQ], tG[NQ], tH[NQ],
+        t2[NQ];
 };
 
-static void vary(const struct pm_element *el, const struct kinematics *k, const double *v,
-                 const double *w, struct variation *d)
+static void vary(const struct pm_element *el, const struct kinematics *k, const pm_lanes *v,
+                 const pm_lanes *w, struct variation *d)
 {
-    d->tG = d->tH = d->t2 = 0.0;
-    for (int q = 0; q < NQ; q++) {
-        double s = el->w[q] / k->V;
-        pm_gradient(v, el->dN + 30 * q, d->G[q]);
-        pm_gradient(w, el->dN + 30 * q, d->H[q]);
-        pm_cross9(k->F[q], d->G[q], d->FG[q]);
-        pm_cross9(k->F[q], d->H[q], d->FH[q]);
-        d->jG[q] = pm_dot9(k->C[q], d->G[q]);
-        d->jH[q] = pm_dot9(k->C[q], d->H[q]);
-        d->j2[q] = pm_dot9(d->FG[q], d->H[q]);
-        d->tG += s * d->jG[q];
-        d->tH += s * d->jH[q];
-        d->t2 += s * d->j2[q];
+    int npe = el->type->npe;
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes_gradient(npe, v, gradients(el, q), d->G[q]);
+        pm_lanes_gradient(npe, w, gradients(el, q), d->H[q]);
+        pm_lanes_cross9(k->F[q], d->G[q], d->FG[q]);
+        pm_lanes_cross9(k->F[q], d->H[q], d->FH[q]);
+        d->jG[q] = pm_lanes_dot9(k->C[q], d->G[q]);
+        d->jH[q] = pm_lanes_dot9(k->C[q], d->H[q]);
+        d->j2[q] = pm_lanes_dot9(d->FG[q], d->H[q]);
     }
+    project(el, d->jG, d->tG);
+    project(el, d->jH, d->tH);
+    project(el, d->j2, d->t2);
 }
 
-/* T(G, H) with the volumetric part kappa (piGH C + piG F x H + piH F x G + pi G x H). */
+/* Pressure and its variations at a point. */
+struct volumetric {
+    pm_lanes pi, piG, piH, piGH;
+};
+
+/* T(G, H) with the volumetric part piGH C + piG F x H + piH F x G + pi G x H. */
 static void third_at(const struct pm_element *el, const struct kinematics *k,
-                     const struct variation *d, int q, double piG, double piH, double piGH,
-                     double pi, double T[9])
+                     const struct variation *d, int q, const struct volumetric *s, pm_lanes T[9])
 {
-    double GH[9];
+    pm_lanes GH[9];
     pm_law_third(el->law, k->F[q], d->G[q], d->H[q], T);
-    pm_cross9(d->G[q], d->H[q], GH);
-    pm_axpy9(piGH, k->C[q], T);
-    pm_axpy9(piG, d->FH[q], T);
-    pm_axpy9(piH, d->FG[q], T);
-    pm_axpy9(pi, GH, T);
+    pm_lanes_cross9(d->G[q], d->H[q], GH);
+    pm_lanes_axpy9(s->piGH, k->C[q], T);
+    pm_lanes_axpy9(s->piG, d->FH[q], T);
+    pm_lanes_axpy9(s->piH, d->FG[q], T);
+    pm_lanes_axpy9(s->pi, GH, T);
 }
 
-void pm_element_third(const struct pm_element *el, const double *u, const double *v,
-                      const double *w, double *f)
+void pm_element_third(const struct pm_element *el, const pm_lanes *u, const pm_lanes *v,
+                      const pm_lanes *w, pm_lanes *f)
 {
     struct kinematics k;
     struct variation d;
-    double b = el->blend, kappa = el->law->kappa;
     deform(el, u, &k);
     vary(el, &k, v, w, &d);
-    for (int q = 0; q < NQ; q++) {
-        double T[9];
-        third_at(el, &k, &d, q, kappa * (b * d.jG[q] + (1 - b) * d.tG),
-                 kappa * (b * d.jH[q] + (1 - b) * d.tH), kappa * (b * d.j2[q] + (1 - b) * d.t2),
-                 pressure_at(el, &k, q), T);
-        scatter(el->w[q], T, el->dN + 30 * q, f);
+    clear(el, f);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes T[9];
+        const struct volumetric s = {blend(el, k.Jm1[q], k.bar[q]), blend(el, d.jG[q], d.tG[q]),
+                                     blend(el, d.jH[q], d.tH[q]), blend(el, d.j2[q], d.t2[q])};
+        third_at(el, &k, &d, q, &s, T);
+        scatter(el->type->npe, el->w[q], T, gradients(el, q), f);
     }
 }
 
+/* ---- shape derivative ---- */
+
 /* M_IJ += s A_iI B_iJ */
-static void add_tprod(double s, const double A[9], const double B[9], double M[9])
+static void add_tprod(double s, const pm_lanes A[9], const pm_lanes B[9], pm_lanes M[9])
 {
     for (int i = 0; i < 3; i++)
         for (int I = 0; I < 3; I++)
@@ -230,7 +347,7 @@ static void add_tprod(double s, const double A[9], const double B[9], double M[9
                 M[3 * I + J] += s * A[3 * i + I] * B[3 * i + J];
 }
 
-static void add_trace(double s, double M[9])
+static void add_trace(pm_lanes s, pm_lanes M[9])
 {
     M[0] += s;
     M[4] += s;
@@ -239,59 +356,63 @@ static void add_trace(double s, double M[9])
 
 /* S = A:G of the pointwise part W_iso + b U. */
 static void apply_pointwise(const struct pm_element *el, const struct kinematics *k, int q,
-                            const double G[9], const double FG[9], double jG, double S[9])
+                            const pm_lanes G[9], const pm_lanes FG[9], pm_lanes jG, pm_lanes S[9])
 {
     double bk = el->blend * el->law->kappa;
     pm_law_apply(el->law, k->F[q], G, S);
-    pm_axpy9(bk * jG, k->C[q], S);
-    pm_axpy9(bk * k->Jm1[q], FG, S);
+    pm_lanes_axpy9(bk * jG, k->C[q], S);
+    pm_lanes_axpy9(bk * k->Jm1[q], FG, S);
 }
 
-/* Second-order part of the Eshelby-type tensor for one pair (v, h). */
-static void shape_second(const struct pm_element *el, const struct kinematics *k, const double *v,
-                         const double *h, double M[NQ][9])
+/* Second-order part of the Eshelby-type tensor for one pair (v, h). The projected part depends on X
+ * through the weights alone (w J is the deformed volume), as -(bar + bar^2/2) in the trace. */
+static void shape_second(const struct pm_element *el, const struct kinematics *k, const pm_lanes *v,
+                         const pm_lanes *h, pm_lanes M[NQ][9])
 {
     struct variation d;
     double bk = el->blend * el->law->kappa, mk = (1.0 - el->blend) * el->law->kappa;
     vary(el, k, v, h, &d);
-    for (int q = 0; q < NQ; q++) {
-        double AG[9], AH[9], T[9];
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes AG[9], AH[9], T[9];
+        const struct volumetric s = {bk * k->Jm1[q], bk * d.jG[q], bk * d.jH[q], bk * d.j2[q]};
         apply_pointwise(el, k, q, d.G[q], d.FG[q], d.jG[q], AG);
         apply_pointwise(el, k, q, d.H[q], d.FH[q], d.jH[q], AH);
-        third_at(el, k, &d, q, bk * d.jG[q], bk * d.jH[q], bk * d.j2[q], bk * k->Jm1[q], T);
-        add_trace(pm_dot9(d.G[q], AH), M[q]);
+        third_at(el, k, &d, q, &s, T);
+        add_trace(pm_lanes_dot9(d.G[q], AH), M[q]);
         add_tprod(-1.0, k->F[q], T, M[q]);
         add_tprod(-1.0, d.G[q], AH, M[q]);
         add_tprod(-1.0, d.H[q], AG, M[q]);
-        add_trace(-mk * (d.tG * d.tH + (1.0 + k->mean) * d.t2), M[q]);
+        add_trace(-mk * (d.tG[q] * d.tH[q] + (1.0 + k->bar[q]) * d.t2[q]), M[q]);
     }
 }
 
-void pm_element_shape(const struct pm_element *el, const double *u, const double *g, int n,
-                      const double *v, const double *h, double *D)
+void pm_element_shape(const struct pm_element *el, const pm_lanes *u, const pm_lanes *g, int n,
+                      const pm_lanes *v, const pm_lanes *h, pm_lanes *D)
 {
     struct kinematics k;
-    double M[NQ][9], jG[NQ], tG = 0.0, bk = el->blend * el->law->kappa,
-                             mk = (1.0 - el->blend) * el->law->kappa;
+    pm_lanes M[NQ][9], jG[NQ] = {{0}}, tG[NQ];
+    double bk = el->blend * el->law->kappa, mk = (1.0 - el->blend) * el->law->kappa;
+    int npe = el->type->npe;
     memset(M, 0, sizeof M);
     deform(el, u, &k);
-    for (int q = 0; q < NQ; q++) {
-        double G[9], FG[9], P[9], AG[9];
-        pm_gradient(g, el->dN + 30 * q, G);
-        pm_cross9(k.F[q], G, FG);
-        jG[q] = pm_dot9(k.C[q], G);
-        tG += el->w[q] * jG[q] / k.V;
-        pm_law_stress(el->law, k.F[q], P);
-        pm_axpy9(bk * k.Jm1[q], k.C[q], P);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes G[9], FG[9], P[9], AG[9], W;
+        pm_lanes_gradient(npe, g, gradients(el, q), G);
+        pm_lanes_cross9(k.F[q], G, FG);
+        jG[q] = pm_lanes_dot9(k.C[q], G);
+        pm_law_stress(el->law, k.F[q], &W, P);
+        pm_lanes_axpy9(bk * k.Jm1[q], k.C[q], P);
         apply_pointwise(el, &k, q, G, FG, jG[q], AG);
-        add_trace(pm_dot9(P, G), M[q]);
+        add_trace(pm_lanes_dot9(P, G), M[q]);
         add_tprod(-1.0, k.F[q], AG, M[q]);
         add_tprod(-1.0, G, P, M[q]);
     }
-    for (int q = 0; q < NQ; q++)
-        add_trace(-mk * (1.0 + k.mean) * tG, M[q]);
+    project(el, jG, tG);
+    for (int q = 0; q < el->type->nq; q++)
+        add_trace(-mk * (1.0 + k.bar[q]) * tG[q], M[q]);
     for (int r = 0; r < n; r++)
-        shape_second(el, &k, v + 30 * r, h + 30 * r, M);
-    for (int q = 0; q < NQ; q++)
-        scatter(el->w[q], M[q], el->dN + 30 * q, D);
+        shape_second(el, &k, v + 3 * npe * r, h + 3 * npe * r, M);
+    clear(el, D);
+    for (int q = 0; q < el->type->nq; q++)
+        scatter(npe, el->w[q], M[q], gradients(el, q), D);
 }

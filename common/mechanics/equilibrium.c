@@ -32,7 +32,7 @@ struct solver {
     double *g, *dq;         /* q-vectors: residual, correction */
     double *first, *second; /* derivatives of the path by the load parameter */
     double *nodal;          /* (nn x 3) */
-    double *pressure;       /* MIP (ne x 4) */
+    pm_lanes *pressure;     /* MIP, as pm_model_pressure */
     struct pm_config trial;
     double Pi, load_norm;
 };
@@ -211,7 +211,7 @@ static enum pm_status load_step(struct solver *s, const struct path *path,
     s->r->lambda = next;
     pm_log(2, "load %.4f: predicted, residual %.2e", next, residual);
     pm_model_expand(s->m, base, s->first, s->nodal);
-    for (ptrdiff_t k = 0; k < 3 * s->m->mesh->nn; k++)
+    for (ptrdiff_t k = 0; k < 3 * s->m->nn; k++)
         s->nodal[k] *= *h;
     pm_model_pressure(s->m, base, s->nodal, s->pressure);
     return newton(s, c, next < 1.0 ? path_tolerance : s->o->tolerance, 1, out, err);
@@ -285,8 +285,8 @@ static enum pm_status allocate(struct solver *s, struct pm_err *err)
     PM_TRY(PM_NEW(s->dq, s->m->nq, err));
     PM_TRY(PM_NEW(s->first, s->m->nq, err));
     PM_TRY(PM_NEW(s->second, s->m->nq, err));
-    PM_TRY(PM_NEW(s->nodal, 3 * mesh->nn, err));
-    PM_TRY(PM_NEW(s->pressure, 4 * mesh->ne, err));
+    PM_TRY(PM_NEW(s->nodal, 3 * s->m->nn, err));
+    PM_TRY(pm_model_pressure_new(s->m, &s->pressure, err));
     PM_TRY(pm_config_new(s->m, &s->trial, err));
 done:
     return status;
@@ -320,7 +320,8 @@ static enum pm_status start_from_guess(struct solver *s, const struct pm_guess *
     int same = memcmp(guess->at, p, (size_t)s->m->mesh->nc * sizeof *p) == 0;
     set_pressure(s, &path, 0.0);
     if (guess->pressure != NULL)
-        memcpy(s->pressure, guess->pressure, 4 * (size_t)s->m->mesh->ne * sizeof *s->pressure);
+        memcpy(s->pressure, guess->pressure,
+               (size_t)(s->m->nb * s->m->space.type->nq) * sizeof *s->pressure);
     pm_model_move(s->m, c, s->first, 0.0, c); /* places the end-effector's nodes on this mesh */
     PM_TRY(
         newton(s, c, same ? s->o->tolerance : path_tolerance, guess->pressure != NULL, out, err));

@@ -26,11 +26,11 @@ struct pm_solve_report {
     char why[192]; /* last reason of a back-off */
 };
 
-/* A guess in c: the loads it belongs to, and the pressures (ne x 4) of its elements or NULL. */
+/* A guess in c: the loads it belongs to, and the pressures in its elements or NULL. */
 struct pm_guess {
-    const double *at;       /* (nc) [MPa] */
-    const double *pressure; /* (ne x 4) [MPa] */
-    int only;               /* 1: no other start where the guess fails */
+    const double *at;         /* (nc) [MPa] */
+    const pm_lanes *pressure; /* as pm_model_pressure [MPa] */
+    int only;                 /* 1: no other start where the guess fails */
 };
 
 /* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess or

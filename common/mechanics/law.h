@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include "common/base/status.h"
+#include "common/mechanics/lanes.h"
 
 enum { PM_LAW_MAX = 12 };
 
@@ -26,14 +27,16 @@ struct pm_law {
 enum pm_status pm_law_set(struct pm_law *law, const char *name, ptrdiff_t n, const double *c,
                           double kappa, struct pm_err *err);
 
-/* Isochoric part at F (det F > 0): returns W_iso; P_iso = dW_iso/dF (NULL: not wanted). */
-double pm_law_stress(const struct pm_law *law, const double F[9], double P[9]);
+/* At a batch of points F (det F > 0), in lanes. Isochoric part: W_iso and P_iso = dW_iso/dF (NULL:
+ * not wanted). */
+void pm_law_stress(const struct pm_law *law, const pm_lanes F[9], pm_lanes *W, pm_lanes P[9]);
 /* A_iso = d2W_iso/dF2 as a symmetric (9 x 9) matrix. */
-void pm_law_tangent(const struct pm_law *law, const double F[9], double A[81]);
+void pm_law_tangent(const struct pm_law *law, const pm_lanes F[9], pm_lanes A[81]);
 /* A_iso : G */
-void pm_law_apply(const struct pm_law *law, const double F[9], const double G[9], double AG[9]);
+void pm_law_apply(const struct pm_law *law, const pm_lanes F[9], const pm_lanes G[9],
+                  pm_lanes AG[9]);
 /* T_iso(G, H) = d/dF (G : A_iso : H) */
-void pm_law_third(const struct pm_law *law, const double F[9], const double G[9], const double H[9],
-                  double T[9]);
+void pm_law_third(const struct pm_law *law, const pm_lanes F[9], const pm_lanes G[9],
+                  const pm_lanes H[9], pm_lanes T[9]);
 
 #endif

@@ -8,6 +8,7 @@
 #define PM_MODEL_H
 
 #include "common/files/mesh.h"
+#include "common/mechanics/cavity.h"
 #include "common/mechanics/element.h"
 #include "common/mechanics/pattern.h"
 #include "common/mechanics/rotation.h"
@@ -18,18 +19,33 @@ enum { PM_NODE_FREE = 0, PM_NODE_CLAMPED = 1, PM_NODE_TIP = 2 };
 struct pm_model {
     const struct pm_mesh *mesh; /* borrowed */
     struct pm_law law;
+    struct pm_space space; /* nn, elements and faces with the nodes of the finite element */
+    struct pm_cavity cavity;
     double blend;
+    ptrdiff_t nn, nb; /* nodes of the space, batches of PM_LANES elements (the last one filled with
+                         its last element) */
     ptrdiff_t nq, tail; /* unknowns; 6 with an end-effector, 0 without */
     uint8_t *kind;      /* PM_NODE_*                              (nn) */
     uint8_t *fixed;     /* equation is fixed                      (nq) */
     struct pm_pattern pattern;
-    double *dN;       /* shape gradients at the points          (ne x 4 x 10 x 3) [1/mm] */
-    double *w;        /* weights                                (ne x 4)          [mm3] */
+    struct pm_slot
+        *slot;        /* where the blocks of an element go in `value` (ne x npe (npe + 1) / 2) */
+    pm_lanes *dN;     /* shape gradients at the points      (nb x points x npe x 3) [1/mm] */
+    pm_lanes *w;      /* weights                            (nb x points)           [mm3] */
+    pm_lanes *phi;    /* modes of the dilatation            (nb x modes x points) */
     double *arm;      /* X_a - X_ref                            (nn x 3)          [mm] */
     double origin[3]; /* x0 of the cavity volumes, on every symmetry plane        [mm] */
     double *value;    /* tangent, values of the pattern */
     struct pm_cholesky *factor;
     long factorisations;
+};
+
+/* Block (a, b) of an element: values[at + c * height + d] holds its component (d, c), or (c, d)
+ * where transposed. */
+struct pm_slot {
+    ptrdiff_t at; /* -1: no place, -2: one of the nodes belongs to the end-effector */
+    int32_t height;
+    int32_t transposed;
 };
 
 /* Configuration: nodal displacements of all nodes (those of the tip follow U) and the end-effector.
@@ -39,6 +55,7 @@ struct pm_config {
     double U[6]; /* [mm], [rad] */
 };
 
+/* element: a name of space.h, NULL for the default of the mesh. */
 enum pm_status pm_model_new(const struct pm_mesh *mesh, const char *element, struct pm_model **m,
                             struct pm_err *err);
 void pm_model_free(struct pm_model *m);
@@ -65,14 +82,19 @@ double pm_model_potential(const struct pm_model *m, const struct pm_config *c, c
 /* dV_r/dx (nodal) for chamber r, 0-based. */
 void pm_model_volume_gradient(const struct pm_model *m, const struct pm_config *c, ptrdiff_t r,
                               double *nodal);
-/* Assembles K at c (f: nodal forces there; pressure (ne x 4) for MIP or NULL) and factors it. */
+/* Assembles K at c (f: nodal forces there; pressure for MIP or NULL) into m->value. */
+void pm_model_assemble(struct pm_model *m, const struct pm_config *c, const double *p,
+                       const double *f, const pm_lanes *pressure);
+/* The same, and factors it. */
 enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p,
-                               const double *f, const double *pressure, int *definite,
+                               const double *f, const pm_lanes *pressure, int *definite,
                                struct pm_err *err);
 enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, struct pm_err *err);
-/* MIP pressures (ne x 4) at c, linearised along the nodal field du. */
+/* MIP pressures (nb x points) at c, linearised along the nodal field du. */
+enum pm_status pm_model_pressure_new(const struct pm_model *m, pm_lanes **pressure,
+                                     struct pm_err *err);
 void pm_model_pressure(const struct pm_model *m, const struct pm_config *c, const double *du,
-                       double *pressure);
+                       pm_lanes *pressure);
 
 /* out = K_x v (nodal, pressure stiffness included; overwritten). */
 void pm_model_apply(const struct pm_model *m, const struct pm_config *c, const double *p,
@@ -88,10 +110,16 @@ void pm_model_volume_apply(const struct pm_model *m, const struct pm_config *c, 
 void pm_model_shape(const struct pm_model *m, const struct pm_config *c, const double *g,
                     ptrdiff_t n, const double *v, const double *h, double *D);
 
-/* The element e as kernels take it, and its nodal values gathered from a nodal field. */
-struct pm_element pm_model_element(const struct pm_model *m, ptrdiff_t e);
-/* Deformed positions of boundary face f relative to the origin of the volumes (6 x 3) [mm]. */
-void pm_model_face(const struct pm_model *m, const struct pm_config *c, ptrdiff_t f, double x[18]);
-void pm_gather(const int32_t *nodes, int n, const double *nodal, double *local);
+/* Deformed positions of boundary face f relative to the origin of the volumes (npf x 3) [mm]. */
+void pm_model_face(const struct pm_model *m, const struct pm_config *c, ptrdiff_t f, double *x);
+/* Batch b of elements as kernels take it, and the values of a nodal field in it (npe x 3). */
+struct pm_element pm_model_batch(const struct pm_model *m, ptrdiff_t b);
+void pm_model_gather(const struct pm_model *m, ptrdiff_t b, const double *nodal, pm_lanes *local);
+/* Elements of the batch. */
+int pm_model_lanes(const struct pm_model *m, ptrdiff_t b);
+/* Chamber of boundary face f, 0-based, or -1. */
+ptrdiff_t pm_model_chamber(const struct pm_model *m, ptrdiff_t f);
+/* Values of a nodal field at n nodes (n x 3). */
+void pm_gather(const int32_t *nodes, ptrdiff_t n, const double *nodal, double *local);
 
 #endif

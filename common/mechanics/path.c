@@ -21,7 +21,7 @@ static void load_field(const struct pm_model *m, const struct pm_config *cfg, co
         if (dp[r] == 0.0)
             continue;
         pm_model_volume_gradient(m, cfg, r, f->s);
-        for (ptrdiff_t k = 0; k < 3 * m->mesh->nn; k++)
+        for (ptrdiff_t k = 0; k < 3 * m->nn; k++)
             f->load[k] += dp[r] * f->s[k];
     }
 }
@@ -30,7 +30,7 @@ static void load_field(const struct pm_model *m, const struct pm_config *cfg, co
 static void add_rotation_rows(const struct pm_model *m, const struct pm_rotation *rot,
                               const double *t, const struct fields *k, const double *f, double *q)
 {
-    for (ptrdiff_t a = 0; a < m->mesh->nn; a++)
+    for (ptrdiff_t a = 0; a < m->nn; a++)
         for (int i = 0; i < 3 && m->kind[a] == PM_NODE_TIP; i++) {
             double D[9] = {0}, DD[9] = {0}, y[3], z[3];
             for (int j = 0; j < 3; j++) {
@@ -48,7 +48,7 @@ static void second_order(const struct pm_model *m, const struct pm_config *cfg, 
                          const double *f, const double *dp, const double *dq, struct fields *k,
                          double *ddq)
 {
-    ptrdiff_t n3 = 3 * m->mesh->nn;
+    ptrdiff_t n3 = 3 * m->nn;
     struct pm_rotation rot;
     const double *t = dq + m->nq - 3;
     double D[9] = {0};
@@ -57,7 +57,7 @@ static void second_order(const struct pm_model *m, const struct pm_config *cfg, 
         for (int j = 0; j < 3; j++)
             pm_axpy9(t[i] * t[j], rot.Rij[i][j], D);
     pm_model_expand(m, cfg, dq, k->x1);
-    for (ptrdiff_t a = 0; a < m->mesh->nn; a++)
+    for (ptrdiff_t a = 0; a < m->nn; a++)
         if (m->kind[a] == PM_NODE_TIP)
             pm_mul3(D, m->arm + 3 * a, k->c + 3 * a);
     pm_model_third(m, cfg, p, k->x1, k->x1, k->s);
@@ -84,7 +84,7 @@ enum pm_status pm_path_derivatives(struct pm_model *m, const struct pm_config *c
 {
     enum pm_status status;
     struct fields k;
-    ptrdiff_t n3 = 3 * m->mesh->nn;
+    ptrdiff_t n3 = 3 * m->nn;
     double *store = NULL;
     PM_TRY(PM_NEW(store, 5 * n3, err));
     k = (struct fields){store, store + n3, store + 2 * n3, store + 3 * n3, store + 4 * n3};

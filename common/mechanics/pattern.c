@@ -22,27 +22,27 @@ static ptrdiff_t unique(ptrdiff_t *list, ptrdiff_t n)
 }
 
 /* Adjacency lists among used nodes, without self loops; index[a] numbers the used nodes. */
-static enum pm_status adjacency(ptrdiff_t ne, const int32_t *tet, const ptrdiff_t *index,
-                                ptrdiff_t n, ptrdiff_t **ptr_out, ptrdiff_t **adj_out,
-                                struct pm_err *err)
+static enum pm_status adjacency(ptrdiff_t ne, ptrdiff_t npe, const int32_t *tet,
+                                const ptrdiff_t *index, ptrdiff_t n, ptrdiff_t **ptr_out,
+                                ptrdiff_t **adj_out, struct pm_err *err)
 {
     enum pm_status status;
     ptrdiff_t *ptr = NULL, *adj = NULL, *fill = NULL;
     PM_TRY(PM_NEW(ptr, n + 1, err));
     PM_TRY(PM_NEW(fill, n + 1, err));
     for (ptrdiff_t e = 0; e < ne; e++)
-        for (int a = 0; a < 10; a++)
-            if (index[tet[10 * e + a]] >= 0)
-                fill[index[tet[10 * e + a]]] += 9;
+        for (int a = 0; a < npe; a++)
+            if (index[tet[npe * e + a]] >= 0)
+                fill[index[tet[npe * e + a]]] += npe - 1;
     for (ptrdiff_t i = 0; i < n; i++)
         ptr[i + 1] = ptr[i] + fill[i];
     PM_TRY(PM_NEW(adj, ptr[n], err));
     for (ptrdiff_t i = 0; i < n; i++)
         fill[i] = ptr[i];
     for (ptrdiff_t e = 0; e < ne; e++)
-        for (int a = 0; a < 10; a++)
-            for (int b = 0; b < 10; b++) {
-                ptrdiff_t i = index[tet[10 * e + a]], j = index[tet[10 * e + b]];
+        for (int a = 0; a < npe; a++)
+            for (int b = 0; b < npe; b++) {
+                ptrdiff_t i = index[tet[npe * e + a]], j = index[tet[npe * e + b]];
                 if (a != b && i >= 0 && j >= 0)
                     adj[fill[i]++] = j;
             }
@@ -112,9 +112,9 @@ done:
     return status;
 }
 
-enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, const int32_t *tet, const uint8_t *use,
-                              const uint8_t *couples, ptrdiff_t bs, ptrdiff_t tail,
-                              struct pm_pattern *p, struct pm_err *err)
+enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, ptrdiff_t npe, const int32_t *tet,
+                              const uint8_t *use, const uint8_t *couples, ptrdiff_t bs,
+                              ptrdiff_t tail, struct pm_pattern *p, struct pm_err *err)
 {
     enum pm_status status;
     ptrdiff_t *ptr = NULL, *adj = NULL, *node = NULL, *place = NULL;
@@ -124,7 +124,7 @@ enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, const int32_t *tet, co
     for (ptrdiff_t a = 0; a < nn; a++)
         p->eq[a] = use[a] ? p->nodes++ : -1;
     p->n = bs * p->nodes + tail;
-    PM_TRY(adjacency(ne, tet, p->eq, p->nodes, &ptr, &adj, err));
+    PM_TRY(adjacency(ne, npe, tet, p->eq, p->nodes, &ptr, &adj, err));
     PM_TRY(PM_NEW(node, p->nodes, err));
     PM_TRY(PM_NEW(place, p->nodes, err));
     PM_TRY(PM_NEW(coupled, p->nodes, err));

@@ -1,4 +1,4 @@
-/* Sparsity pattern of a system on the nodes of a tet10 mesh, numbered in elimination order: each
+/* Sparsity pattern of a system on the nodes of elements, numbered in elimination order: each
  * used node has one block of `bs` equations, and `tail` dense equations (the rigid end-effector)
  * come last. */
 #ifndef PM_PATTERN_H
@@ -19,11 +19,11 @@ struct pm_pattern {
     ptrdiff_t *row;
 };
 
-/* use[a] != 0: node a has equations; couples[a] != 0: node a is coupled with the tail (may be
- * NULL). */
-enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, const int32_t *tet, const uint8_t *use,
-                              const uint8_t *couples, ptrdiff_t bs, ptrdiff_t tail,
-                              struct pm_pattern *p, struct pm_err *err);
+/* ne elements of npe nodes. use[a] != 0: node a has equations; couples[a] != 0: node a is coupled
+ * with the tail (may be NULL). */
+enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, ptrdiff_t npe, const int32_t *tet,
+                              const uint8_t *use, const uint8_t *couples, ptrdiff_t bs,
+                              ptrdiff_t tail, struct pm_pattern *p, struct pm_err *err);
 /* Index in the values of entry (row component 0 of place i, column component 0 of place j), i >= j;
  * the block entry (d, c) is at  result of column c  + d:  pm_pattern_block(p, i, j, c) + d. */
 ptrdiff_t pm_pattern_block(const struct pm_pattern *p, ptrdiff_t i, ptrdiff_t j, ptrdiff_t c);

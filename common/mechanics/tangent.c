@@ -2,7 +2,6 @@
 #include <math.h>
 #include <string.h>
 
-#include "common/mechanics/cavity.h"
 #include "common/mechanics/model.h"
 #include "common/mechanics/tensor.h"
 
@@ -27,10 +26,9 @@ static double *tail_entry(struct pm_model *m, ptrdiff_t row, ptrdiff_t column_of
     return m->value + m->pattern.ptr[c] + (row - column_of_tail);
 }
 
-/* Adds the 3x3 block k of nodes (a, b), row-major with stride; only the half that the lower
- * triangle stores. */
+/* Adds the 3x3 block k of nodes (a, b); only the half that the lower triangle stores. */
 static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a, ptrdiff_t b,
-                      const double *k, ptrdiff_t stride)
+                      const double k[9])
 {
     const struct pm_pattern *p = &m->pattern;
     ptrdiff_t i = p->eq[a], j = p->eq[b];
@@ -40,7 +38,7 @@ static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff
                       height = p->ptr[3 * j + 1] - p->ptr[3 * j];
             for (int c = 0; c < 3; c++)
                 for (int d = 0; d < 3; d++)
-                    m->value[base + c * height + d] += k[d * stride + c];
+                    m->value[base + c * height + d] += k[3 * d + c];
         }
         return;
     }
@@ -50,8 +48,7 @@ static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff
     tip_map(m, rot, a, Ba);
     for (int t = 0; t < 6; t++)
         for (int c = 0; c < 3; c++)
-            BK[3 * t + c] =
-                Ba[t] * k[c] + Ba[6 + t] * k[stride + c] + Ba[12 + t] * k[2 * stride + c];
+            BK[3 * t + c] = Ba[t] * k[c] + Ba[6 + t] * k[3 + c] + Ba[12 + t] * k[6 + c];
     if (j >= 0) {
         for (int c = 0; c < 3; c++)
             for (int t = 0; t < 6; t++)
@@ -66,20 +63,49 @@ static void add_block(struct pm_model *m, const struct pm_rotation *rot, ptrdiff
                 BK[3 * t] * Bb[s] + BK[3 * t + 1] * Bb[6 + s] + BK[3 * t + 2] * Bb[12 + s];
 }
 
-static void add_elements(struct pm_model *m, const struct pm_rotation *rot,
-                         const struct pm_config *c, const double *pressure)
+/* Both orders of block k of nodes (a, b). */
+static void add_both(struct pm_model *m, const struct pm_rotation *rot, ptrdiff_t a, ptrdiff_t b,
+                     const double k[9])
 {
-    const struct pm_mesh *mesh = m->mesh;
-    double K[900];
-    for (ptrdiff_t e = 0; e < mesh->ne; e++) {
-        struct pm_element el = pm_model_element(m, e);
-        const int32_t *t = mesh->tet + 10 * e;
-        double u[30];
-        pm_gather(t, 10, c->u, u);
-        pm_element_tangent(&el, u, pressure != NULL ? pressure + 4 * e : NULL, K);
-        for (int a = 0; a < 10; a++)
-            for (int b = 0; b < 10; b++)
-                add_block(m, rot, t[a], t[b], K + 30 * (3 * a) + 3 * b, 30);
+    const double kT[9] = {k[0], k[3], k[6], k[1], k[4], k[7], k[2], k[5], k[8]};
+    add_block(m, rot, a, b, k);
+    if (a != b)
+        add_block(m, rot, b, a, kT);
+}
+
+static void add_slot(double *value, const struct pm_slot *s, const pm_lanes *K, int lane)
+{
+    double *to = value + s->at;
+    for (int c = 0; c < 3; c++, to += s->height)
+        for (int d = 0; d < 3; d++)
+            to[d] += K[s->transposed ? 3 * c + d : 3 * d + c][lane];
+}
+
+static void add_elements(struct pm_model *m, const struct pm_rotation *rot,
+                         const struct pm_config *c, const pm_lanes *pressure)
+{
+    const struct pm_element_type *t = m->space.type;
+    ptrdiff_t npe = t->npe, blocks = npe * (npe + 1) / 2;
+    for (ptrdiff_t batch = 0; batch < m->nb; batch++) {
+        struct pm_element el = pm_model_batch(m, batch);
+        pm_lanes u[3 * PM_MOST_NODES], K[9 * PM_MOST_NODES * (PM_MOST_NODES + 1) / 2];
+        pm_model_gather(m, batch, c->u, u);
+        pm_element_tangent(&el, u, pressure != NULL ? pressure + t->nq * batch : NULL, K);
+        for (int l = 0; l < pm_model_lanes(m, batch); l++) {
+            const int32_t *node = m->space.tet + npe * (PM_LANES * batch + l);
+            const struct pm_slot *s = m->slot + blocks * (PM_LANES * batch + l);
+            for (ptrdiff_t b = 0, at = 0; b < npe; b++)
+                for (ptrdiff_t a = 0; a <= b; a++, at++) {
+                    if (s[at].at >= 0) {
+                        add_slot(m->value, s + at, K + 9 * at, l);
+                    } else if (s[at].at == -2) {
+                        double k[9];
+                        for (int i = 0; i < 9; i++)
+                            k[i] = K[9 * at + i][l];
+                        add_both(m, rot, node[a], node[b], k);
+                    }
+                }
+        }
     }
 }
 
@@ -87,21 +113,22 @@ static void add_elements(struct pm_model *m, const struct pm_rotation *rot,
 static void add_pressure(struct pm_model *m, const struct pm_rotation *rot,
                          const struct pm_config *c, const double *p)
 {
-    const struct pm_mesh *mesh = m->mesh;
-    for (ptrdiff_t f = 0; f < mesh->nf; f++) {
-        const int32_t *t = mesh->tri + 6 * f;
-        double x[18], s[108];
-        if (mesh->tri_tag[f] < 1 || p[mesh->tri_tag[f] - 1] == 0.0)
+    int n = m->cavity.n;
+    for (ptrdiff_t f = 0; f < m->space.nf; f++) {
+        const int32_t *t = m->space.tri + n * f;
+        double x[3 * PM_MOST_FACE_NODES], s[3 * PM_MOST_FACE_NODES * PM_MOST_FACE_NODES];
+        ptrdiff_t r = pm_model_chamber(m, f);
+        double pr = r < 0 ? 0.0 : p[r];
+        if (pr == 0.0)
             continue;
-        double pr = p[mesh->tri_tag[f] - 1];
         pm_model_face(m, c, f, x);
-        pm_cavity_hessian(x, s);
-        for (int a = 0; a < 6; a++)
-            for (int b = 0; b < 6; b++) {
-                const double *v = s + 3 * (6 * a + b);
+        pm_cavity_hessian(&m->cavity, x, s);
+        for (int a = 0; a < n; a++)
+            for (int b = 0; b < n; b++) {
+                const double *v = s + 3 * (n * a + b);
                 const double k[9] = {0,          -pr * v[2], pr * v[1], pr * v[2], 0,
                                      -pr * v[0], -pr * v[1], pr * v[0], 0};
-                add_block(m, rot, t[a], t[b], k, 3);
+                add_block(m, rot, t[a], t[b], k);
             }
     }
 }
@@ -109,7 +136,7 @@ static void add_pressure(struct pm_model *m, const struct pm_rotation *rot,
 /* sum_tip f_a . R_ij r_a on the rotation rows. */
 static void add_tip_forces(struct pm_model *m, const struct pm_rotation *rot, const double *f)
 {
-    for (ptrdiff_t a = 0; a < m->mesh->nn; a++)
+    for (ptrdiff_t a = 0; a < m->nn; a++)
         for (int j = 0; j < 3 && m->kind[a] == PM_NODE_TIP; j++)
             for (int i = j; i < 3; i++) {
                 double y[3];
@@ -133,9 +160,8 @@ static void fix_equations(struct pm_model *m)
                 m->value[k] = p->row[k] == c ? scale : 0.0;
 }
 
-enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p,
-                               const double *f, const double *pressure, int *definite,
-                               struct pm_err *err)
+void pm_model_assemble(struct pm_model *m, const struct pm_config *c, const double *p,
+                       const double *f, const pm_lanes *pressure)
 {
     struct pm_rotation rot;
     pm_rotation_at(c->U + 3, 0, &rot);
@@ -145,6 +171,13 @@ enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, co
     if (m->tail > 0)
         add_tip_forces(m, &rot, f);
     fix_equations(m);
+}
+
+enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p,
+                               const double *f, const pm_lanes *pressure, int *definite,
+                               struct pm_err *err)
+{
+    pm_model_assemble(m, c, p, f, pressure);
     m->factorisations++;
     return pm_cholesky_factor(m->factor, m->value, definite, NULL, err);
 }

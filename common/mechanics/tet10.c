@@ -53,7 +53,7 @@ double pm_tet10_gradient(const double *X, const double xi[3], double dN[30])
 {
     double ref[30], D[9], C[9];
     pm_tet10_shape_gradient(xi, ref);
-    pm_gradient(X, ref, D); /* D_iJ = dX_i/dxi_J */
+    pm_gradient(10, X, ref, D); /* D_iJ = dX_i/dxi_J */
     double det = pm_cofactor(D, C), inv = 1.0 / det;
     /* dN/dX_i = dN/dxi_J (D^-1)_Ji, (D^-1)_Ji = C_iJ / det */
     for (int a = 0; a < 10; a++)

@@ -3,6 +3,7 @@
 #include "common/mechanics/law.h"
 
 #include "common/mechanics/tensor.h"
+#include "tests/lanes.h"
 #include "tests/reference.h"
 #include "tests/tap.h"
 
@@ -21,16 +22,16 @@ static void compare(const cJSON *root, const char *item, const char *name, int n
     reference_numbers(root, "G", G, 9);
     reference_numbers(root, "H", H, 9);
     ok(pm_law_set(&l, name, n, c, kappa, &err) == PM_OK, "%s is known", name);
-    double J = pm_cofactor(F, C), W = pm_law_stress(&l, F, P) + 0.5 * kappa * (J - 1) * (J - 1);
+    double J = pm_cofactor(F, C), W = lanes_law_stress(&l, F, P) + 0.5 * kappa * (J - 1) * (J - 1);
     pm_cross9(F, G, FG);
     pm_cross9(F, H, FH);
     pm_cross9(G, H, GH);
-    pm_law_apply(&l, F, G, AG);
-    pm_law_tangent(&l, F, A);
+    lanes_law_apply(&l, F, G, AG);
+    lanes_law_tangent(&l, F, A);
     for (int k = 0; k < 9; k++)
         AG2[k] = pm_dot9(A + 9 * k, G);
     near_array("tangent matrix times G is A:G", AG2, AG, 9, tolerance);
-    pm_law_third(&l, F, G, H, T);
+    lanes_law_third(&l, F, G, H, T);
     pm_axpy9(kappa * (J - 1), C, P);
     pm_axpy9(kappa * (J - 1), FG, AG);
     pm_axpy9(kappa * pm_dot9(C, G), C, AG);

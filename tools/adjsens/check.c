@@ -38,7 +38,7 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *w, stru
     PM_TRY(pm_model_new(mesh, pt->state.element, &m, err));
     PM_TRY(pm_config_new(m, &c, err));
     pm_config_copy(m, &pt->c, &c);
-    PM_TRY(PM_NEW(f, 3 * mesh->nn, err));
+    PM_TRY(PM_NEW(f, 3 * m->nn, err));
     PM_TRY(PM_NEW(V, nc, err));
     PM_TRY(PM_NEW(Jq, nc * m->nq, err));
     PM_TRY(PM_NEW(J, 6 * nc, err));

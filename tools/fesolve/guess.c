@@ -29,7 +29,6 @@ static enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, s
                 path);
     } else {
         PM_TRY(PM_NEW(g->at, mesh->nc, err));
-        PM_TRY(PM_NEW(g->pressure, 4 * mesh->ne, err));
         for (ptrdiff_t r = 0; r < mesh->nc; r++)
             g->at[r] = g->from.pressure[r] * old->pcase.mu;
         g->same_shape = memcmp(old->x, mesh->x, 3 * (size_t)mesh->nn * sizeof *mesh->x) == 0;
@@ -80,7 +79,9 @@ static enum pm_status carry(struct guess *g, const struct pm_model *m, const str
     enum pm_status status;
     double *still = NULL, *u = NULL;
 
-    PM_TRY(PM_NEW(still, 3 * b->nn, err));
+    pm_free(g->pressure);
+    PM_TRY(pm_model_pressure_new(m, &g->pressure, err));
+    PM_TRY(PM_NEW(still, 3 * m->nn, err));
     PM_TRY(PM_NEW(u, 3 * b->nn, err));
     pm_model_pressure(m, c, still, g->pressure);
     PM_TRY(pm_advect(m->mesh, c->u, b, u, err));

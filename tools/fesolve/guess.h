@@ -7,8 +7,8 @@
 
 struct guess {
     struct pm_state from;
-    double *at;       /* its pressures (nc) [MPa] */
-    double *pressure; /* of the elements where it was carried to (ne x 4) [MPa] */
+    double *at;         /* its pressures (nc) [MPa] */
+    pm_lanes *pressure; /* of the elements where it was carried to [MPa] */
     int usable;
     int same_shape;
 };
