@@ -62,6 +62,7 @@ static const struct pm_item table[] = {
     {"state sens", "/load/index", I64, "", "1", "point of the Gauss set, -1 for free pressures", 1},
     {"state", "/load/pressure", D, "nc", "p/mu", "chamber pressures", 1},
     {"state", "/node/displacement", D, "nn 3", "mm", "nodal displacement", 1},
+    {"state", "/node/bubble", D, "nbubble 3", "mm", "amplitudes of the bubbles of element tet15", 0},
     {"state", "/tip/U", D, "6", "mm, rad", "end-effector translation and rotation vector", 1},
     {"state", "/tip/J", D, "6 nc", "mm, rad", "dU/d(p/mu)", 1},
     {"state", "/chamber/volume", D, "nc", "mm3", "deformed chamber volumes", 1},
@@ -77,6 +78,11 @@ static const struct pm_item table[] = {
     {"state", "/solve/backoffs", I64, "", "1", "load steps taken back", 1},
     {"state", "/solve/stable", I64, "", "1", "1: tangent positive definite at the solution", 1},
     {"state", "/solve/warm", I64, "", "1", "1: started from a guess", 1},
+    {"state", "/contact/intersections", I64, "", "1", "pairs of boundary faces that pierce each other in the deformed body, or a symmetry plane", 1},
+    {"state", "/contact/gap", D, "", "mm", "least distance of boundaries that face each other through air, 0 where they pierce, -1 for none", 1},
+    {"state", "/contact/gap_reference", D, "", "mm", "the same of the undeformed body", 1},
+    {"state", "/contact/at", D, "3", "mm", "where, in the deformed body", 1},
+    {"state", "/contact/surface", I32, "2", "1", "the two boundaries there, as in /mesh/tri_tag", 1},
 
     {"work", "/measure/value", D, "", "see /measure/unit", "workspace measure", 1},
     {"work", "/measure/name", TEXT, "", "1", "2T 3T 2R 3R 1R2T 3R3T", 1},
@@ -95,6 +101,8 @@ static const struct pm_item table[] = {
     {"work", "/point/w", D, "ng", "see /measure/unit", "contribution to the value", 1},
     {"work", "/point/dw_dU", D, "ng 6", "1", "derivative of the contribution", 1},
     {"work", "/point/dw_dJ", D, "ng 6 nc", "1", "derivative of the contribution", 1},
+    {"work", "/point/intersections", I64, "ng", "1", "pairs of boundary faces that pierce each other", 1},
+    {"work", "/point/gap", D, "ng", "mm", "least distance across air, 0 where faces pierce, -1 for none", 1},
 
     {"sens", "/gradient/phi", D, "N 3", "1", "derivative of the contribution by the control points", 1},
     {"sens", "/gradient/identity_translation", D, "", "1", "relative defect of the nodal gradient", 1},

@@ -5,7 +5,7 @@
 #include "common/base/memory.h"
 #include "common/files/record.h"
 
-/* The scalars of /solve in one table for reading and writing. */
+/* The scalars in one table for reading and writing. */
 struct scalar {
     const char *name;
     size_t offset;
@@ -24,6 +24,9 @@ static const struct scalar scalars[] = {
     {"/solve/backoffs", AT(backoffs), 0},
     {"/solve/stable", AT(stable), 0},
     {"/solve/warm", AT(warm), 0},
+    {"/contact/intersections", AT(contact.intersections), 0},
+    {"/contact/gap", AT(contact.gap), 1},
+    {"/contact/gap_reference", AT(contact.gap_reference), 1},
 };
 
 enum { NSCALARS = sizeof scalars / sizeof scalars[0] };
@@ -52,6 +55,10 @@ static enum pm_status read_solution(struct pm_h5 *f, struct pm_state *s, struct 
     enum pm_status status;
     ptrdiff_t d[PM_MAX_RANK];
     PM_TRY(pm_h5_get(f, "/node/displacement", d, &s->u, err));
+    if (pm_h5_has(f, "/node/bubble")) {
+        PM_TRY(pm_h5_get(f, "/node/bubble", d, &s->bubble, err));
+        s->nbubble = d[0];
+    }
     PM_TRY(pm_h5_get_into(f, "/tip/U", 6, s->U, err));
     PM_TRY(pm_h5_get(f, "/tip/J", d, &s->J, err));
     PM_TRY(pm_h5_get(f, "/chamber/volume", d, &s->volume, err));
@@ -60,6 +67,10 @@ static enum pm_status read_solution(struct pm_h5 *f, struct pm_state *s, struct 
     PM_TRY(pm_record_get_short(f, "/solve/element", s->element, sizeof s->element, err));
     for (int i = 0; i < NSCALARS; i++)
         PM_TRY(pm_h5_get_into(f, scalars[i].name, 1, (char *)s + scalars[i].offset, err));
+    PM_TRY(pm_h5_get_into(f, "/contact/at", 3, s->contact.at, err));
+    PM_TRY(pm_h5_get_into(f, "/contact/surface", 2, s->contact.surface, err));
+    PM_TRY(pm_check_range(f, "/contact/surface", s->contact.surface, 2, PM_FACE_SYM_Z,
+                          s->mesh.nc + 1, err));
 done:
     return status;
 }
@@ -99,8 +110,11 @@ done:
 static enum pm_status write_solution(struct pm_h5 *f, const struct pm_state *s, struct pm_err *err)
 {
     enum pm_status status;
-    const ptrdiff_t points[] = {s->mesh.nn, 3}, jacobian[] = {6, s->mesh.nc};
+    const ptrdiff_t points[] = {s->mesh.nn, 3}, jacobian[] = {6, s->mesh.nc},
+                    bubbles[] = {s->nbubble, 3};
     PM_TRY(pm_h5_put(f, "/node/displacement", points, s->u, err));
+    if (s->nbubble > 0)
+        PM_TRY(pm_h5_put(f, "/node/bubble", bubbles, s->bubble, err));
     PM_TRY(pm_h5_put(f, "/tip/U", jacobian, s->U, err));
     PM_TRY(pm_h5_put(f, "/tip/J", jacobian, s->J, err));
     PM_TRY(pm_h5_put(f, "/chamber/volume", &s->mesh.nc, s->volume, err));
@@ -109,6 +123,8 @@ static enum pm_status write_solution(struct pm_h5 *f, const struct pm_state *s, 
     PM_TRY(pm_h5_put_text(f, "/solve/element", s->element, err));
     for (int i = 0; i < NSCALARS; i++)
         PM_TRY(pm_h5_put(f, scalars[i].name, NULL, (const char *)s + scalars[i].offset, err));
+    PM_TRY(pm_h5_put(f, "/contact/at", (const ptrdiff_t[]){3}, s->contact.at, err));
+    PM_TRY(pm_h5_put(f, "/contact/surface", (const ptrdiff_t[]){2}, s->contact.surface, err));
     PM_TRY(pm_h5_vtk_point_field(f, "/node/displacement", "displacement", err));
 done:
     return status;
@@ -144,6 +160,7 @@ void pm_state_release(struct pm_state *s)
 {
     pm_free(s->pressure);
     pm_free(s->u);
+    pm_free(s->bubble);
     pm_free(s->J);
     pm_free(s->volume);
     pm_free(s->volume0);

@@ -36,6 +36,8 @@ static enum pm_status read_points(struct pm_h5 *f, struct pm_work *w, struct pm_
     PM_TRY(pm_h5_get(f, "/point/w", d, &w->w, err));
     PM_TRY(pm_h5_get(f, "/point/dw_dU", d, &w->dw_dU, err));
     PM_TRY(pm_h5_get(f, "/point/dw_dJ", d, &w->dw_dJ, err));
+    PM_TRY(pm_h5_get(f, "/point/intersections", d, &w->intersections, err));
+    PM_TRY(pm_h5_get(f, "/point/gap", d, &w->gap, err));
     if (w->ng < 1 || w->nc < 1 || w->nc > PM_MAX_CHAMBERS)
         PM_TRY(pm_h5_refuse(f, err, "/point/pressure", "is %td x %td", w->ng, w->nc));
     if (w->form < 0 || w->form > 1)
@@ -100,6 +102,8 @@ enum pm_status pm_work_write(struct pm_h5 *f, const struct pm_work *w, struct pm
     PM_TRY(pm_h5_put(f, "/point/w", &w->ng, w->w, err));
     PM_TRY(pm_h5_put(f, "/point/dw_dU", poses, w->dw_dU, err));
     PM_TRY(pm_h5_put(f, "/point/dw_dJ", jacobians, w->dw_dJ, err));
+    PM_TRY(pm_h5_put(f, "/point/intersections", &w->ng, w->intersections, err));
+    PM_TRY(pm_h5_put(f, "/point/gap", &w->ng, w->gap, err));
 done:
     return status;
 }
@@ -113,6 +117,8 @@ void pm_work_release(struct pm_work *w)
     pm_free(w->w);
     pm_free(w->dw_dU);
     pm_free(w->dw_dJ);
+    pm_free(w->intersections);
+    pm_free(w->gap);
     pm_case_release(&w->pcase);
     *w = (struct pm_work){.ng = 0};
 }

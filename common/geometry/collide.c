@@ -38,12 +38,25 @@ static double orient(const double *a, const double *b, const double *c, const do
            u[2] * (v[0] * w[1] - v[1] * w[0]);
 }
 
-/* Does the segment p q pass through the triangle a b c? Touching does not count. */
+/* Does the segment p q pass through the triangle a b c? Touching does not count: an end within 1e-9
+ * of the triangle's size from its plane, which is more than the rounding of coplanar triangles that
+ * were turned. */
 static int pierces(const double *p, const double *q, const double *a, const double *b,
                    const double *c, double at[3])
 {
     const double dp = orient(a, b, c, p), dq = orient(a, b, c, q);
     if (!(dp * dq < 0))
+        return 0;
+    double u[3], v[3], n2 = 0;
+    for (int i = 0; i < 3; i++) {
+        u[i] = b[i] - a[i];
+        v[i] = c[i] - a[i];
+    }
+    for (int i = 0; i < 3; i++) {
+        const double n = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
+        n2 += n * n;
+    }
+    if (fmin(fabs(dp), fabs(dq)) <= 1e-9 * pow(n2, 0.75))
         return 0;
     const double s1 = orient(p, q, a, b), s2 = orient(p, q, b, c), s3 = orient(p, q, c, a);
     if (!((s1 > 0 && s2 > 0 && s3 > 0) || (s1 < 0 && s2 < 0 && s3 < 0)))

@@ -18,7 +18,7 @@ const double pm_tri_xi[PM_TRI_POINTS][2] = {{P1, P1}, {1 - 2 * P1, P1}, {P1, 1 -
                                             {P2, P2}, {1 - 2 * P2, P2}, {P2, 1 - 2 * P2}};
 const double pm_tri_weight[PM_TRI_POINTS] = {W1, W1, W1, W2, W2, W2};
 
-static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
+const int pm_tet10_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 static const double dL[4][3] = {{-1, -1, -1}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 
 void pm_tet10_shape_gradient(const double xi[3], double dN[30])
@@ -28,7 +28,7 @@ void pm_tet10_shape_gradient(const double xi[3], double dN[30])
         for (int a = 0; a < 4; a++)
             dN[3 * a + j] = (4 * L[a] - 1) * dL[a][j];
         for (int k = 0; k < 6; k++) {
-            int a = edge[k][0], b = edge[k][1];
+            int a = pm_tet10_edge[k][0], b = pm_tet10_edge[k][1];
             dN[3 * (4 + k) + j] = 4 * (L[a] * dL[b][j] + L[b] * dL[a][j]);
         }
     }

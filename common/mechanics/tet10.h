@@ -8,6 +8,8 @@
 
 enum { PM_TET_POINTS = 4, PM_TRI_POINTS = 6 };
 
+/* Vertices of the edges, in the order of their nodes. */
+extern const int pm_tet10_edge[6][2];
 /* Reference coordinates and weights (sum 1/6) of the 4-point rule, exact to degree 2. */
 extern const double pm_tet_xi[PM_TET_POINTS][3];
 extern const double pm_tet_weight[PM_TET_POINTS];

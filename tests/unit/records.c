@@ -101,6 +101,10 @@ static void test_state(const char *path)
            a.stable == b.stable && a.warm == b.warm && a.form == b.form && a.load == b.load &&
            strcmp(a.element, b.element) == 0,
        "scalars come back");
+    ok(a.contact.intersections == b.contact.intersections && a.contact.gap == b.contact.gap &&
+           a.contact.gap_reference == b.contact.gap_reference &&
+           SAME(a.contact.at, b.contact.at, 3) && SAME(a.contact.surface, b.contact.surface, 2),
+       "self-contact comes back");
     pm_state_release(&b);
     struct pm_mesh m;
     ok(pm_mesh_load(path, 0, &m, &err) == PM_OK && SAME(m.x, a.mesh.x, 3 * m.nn),
@@ -131,6 +135,7 @@ static void test_work_and_sens(const char *path)
     ok(a.ng == b.ng && a.nc == b.nc && SAME(a.load, b.load, a.ng) && SAME(a.U, b.U, 6 * a.ng) &&
            SAME(a.J, b.J, 6 * a.ng * a.nc) && SAME(a.w, b.w, a.ng) &&
            SAME(a.dw_dU, b.dw_dU, 6 * a.ng) && SAME(a.dw_dJ, b.dw_dJ, 6 * a.ng * a.nc) &&
+           SAME(a.intersections, b.intersections, a.ng) && SAME(a.gap, b.gap, a.ng) &&
            SAME(a.pressure, b.pressure, a.ng * a.nc),
        "points come back");
     pm_work_release(&a);

@@ -7,6 +7,7 @@
 #include "common/base/memory.h"
 #include "common/files/sens.h"
 #include "common/mechanics/adjoint.h"
+#include "common/mechanics/restore.h"
 
 /* The work file's row of the state's load. */
 static enum pm_status find_row(const char *path, struct adjsens_point *pt, struct pm_err *err)
@@ -33,15 +34,14 @@ static enum pm_status restore(struct adjsens_point *pt, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_state *s = &pt->state;
-    ptrdiff_t nc = s->mesh.nc, nn = s->mesh.nn;
+    ptrdiff_t nc = s->mesh.nc;
     double low;
     int definite;
     PM_TRY(pm_model_new(&s->mesh, s->element, &pt->m, err));
     PM_TRY(pm_config_new(pt->m, &pt->c, err));
-    memcpy(pt->c.u, s->u, 3 * (size_t)nn * sizeof *s->u);
-    memcpy(pt->c.U, s->U, sizeof s->U);
+    PM_TRY(pm_config_restore(pt->m, s, &pt->c, err));
     PM_TRY(PM_NEW(pt->p, nc, err));
-    PM_TRY(PM_NEW(pt->f, 3 * nn, err));
+    PM_TRY(PM_NEW(pt->f, 3 * pt->m->nn, err));
     PM_TRY(PM_NEW(pt->Jq, nc * pt->m->nq, err));
     PM_TRY(PM_NEW(pt->J, 6 * nc, err));
     for (ptrdiff_t r = 0; r < nc; r++)
@@ -110,7 +110,7 @@ static enum pm_status differentiate(struct adjsens_point *pt, struct pm_sens *ou
     struct pm_mesh *mesh = &pt->state.mesh;
     ptrdiff_t nc = mesh->nc;
     double *D = NULL, D_ref[3];
-    PM_TRY(PM_NEW(D, 3 * mesh->nn, err));
+    PM_TRY(PM_NEW(D, 3 * pt->m->nn, err));
     PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
     PM_TRY(pm_adjoint(pt->m, &pt->c, pt->p, pt->f, pt->m->law.mu, pt->Jq,
                       pt->work.dw_dU + 6 * pt->row, pt->work.dw_dJ + 6 * nc * pt->row, D, D_ref,

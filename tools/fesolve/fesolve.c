@@ -7,8 +7,10 @@
 #include "common/base/log.h"
 #include "common/base/memory.h"
 #include "common/files/state.h"
+#include "common/geometry/contact.h"
 #include "common/mechanics/adjoint.h"
 #include "common/mechanics/equilibrium.h"
+#include "common/mechanics/restore.h"
 #include "tools/fesolve/guess.h"
 
 /* Pressures of the run: a point of a Gauss set, or those given. */
@@ -116,7 +118,7 @@ done:
 static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, struct pm_err *err)
 {
     enum pm_status status;
-    ptrdiff_t nc = s->mesh.nc, nn = s->mesh.nn;
+    ptrdiff_t nc = s->mesh.nc;
     struct pm_model *m = NULL;
     struct pm_config c = {0};
     struct pm_solve_report r;
@@ -124,7 +126,7 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     PM_TRY(pm_model_new(&s->mesh, o->element, &m, err));
     PM_TRY(pm_config_new(m, &c, err));
     PM_TRY(PM_NEW(p, nc, err));
-    PM_TRY(PM_NEW(f, 3 * nn, err));
+    PM_TRY(PM_NEW(f, 3 * m->nn, err));
     PM_TRY(PM_NEW(Jq, nc * m->nq, err));
     PM_TRY(PM_NEW(s->J, 6 * nc, err));
     PM_TRY(PM_NEW(s->volume, nc, err));
@@ -135,9 +137,8 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     PM_TRY(balance(o, m, p, &c, s->volume, f, &r, err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
     reaction(m, &c, f, s->reaction);
-    memcpy(s->U, c.U, sizeof s->U);
-    s->u = c.u;
-    c.u = NULL;
+    PM_TRY(pm_config_store(m, &c, s, err));
+    snprintf(s->element, sizeof s->element, "%s", m->space.type->name);
     s->energy = r.energy;
     s->residual = r.residual;
     s->min_det_F = r.min_det_F;
@@ -154,6 +155,8 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
            r.warm ? ", warm" : "", r.residual);
     pm_log(1, "U = %.6f %.6f %.6f mm, %.6f %.6f %.6f rad; smallest det F %.3f", s->U[0], s->U[1],
            s->U[2], s->U[3], s->U[4], s->U[5], s->min_det_F);
+    PM_TRY(pm_contact_find(&s->mesh, s->u, &s->contact, err));
+    pm_contact_tell(&s->contact);
 done:
     pm_config_release(&c);
     pm_model_free(m);
@@ -172,7 +175,6 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
     if (o->have_load == (o->npressure > 0))
         return pm_fail(err, PM_USAGE, "expected exactly one of --load and --pressure");
     PM_TRY(pm_mesh_load(common->operands[0], o->record_failure, &s.mesh, err));
-    snprintf(s.element, sizeof s.element, "%s", o->element);
     if (s.mesh.failure[0] != '\0') {
         snprintf(s.failure, sizeof s.failure, "%s", s.mesh.failure);
         s.form = o->have_form ? o->form : s.mesh.pcase.form;

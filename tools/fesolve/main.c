@@ -8,7 +8,8 @@ static const struct pm_option options[] = {
     {"pressure", 'p', "P1,P2,..", "solve at these chamber pressures, as ratios p/mu"},
     {"guess", 'g', "STATE.h5",
      "start from this state of the same connectivity; repeated: the nearest in pressure"},
-    {"element", 'e', "NAME", "tet10-blend (default), tet10 or tet10-mean"},
+    {"element", 'e', "NAME",
+     "tet10-blend (default; of a linear mesh tet4), tet10, tet10-mean, tet4 or tet15"},
     {"tolerance", 't', "T", "residual / pressure load at the solution (default 1e-8)"},
     {"record-failure", 'r', NULL,
      "where there is no stable equilibrium, write a state that says why"},
@@ -63,6 +64,6 @@ int main(int argc, char **argv)
                                         .max_operands = 1,
                                         .option = option,
                                         .run = run};
-    struct fesolve_opts opts = {.element = "tet10-blend", .tolerance = 1e-8};
+    struct fesolve_opts opts = {.tolerance = 1e-8};
     return pm_tool_main(&tool, argc, argv, &opts);
 }

@@ -78,6 +78,8 @@ static enum pm_status allocate(struct pm_work *work, ptrdiff_t ng, ptrdiff_t nc,
     PM_TRY(PM_NEW(work->w, ng, err));
     PM_TRY(PM_NEW(work->dw_dU, ng * 6, err));
     PM_TRY(PM_NEW(work->dw_dJ, ng * 6 * nc, err));
+    PM_TRY(PM_NEW(work->intersections, ng, err));
+    PM_TRY(PM_NEW(work->gap, ng, err));
 done:
     return status;
 }
@@ -94,6 +96,8 @@ enum pm_status wsint_integrate(const struct pm_case *c, const struct wsint_point
     for (ptrdiff_t g = 0; g < s->ng; g++) {
         const struct wsint_point *q = &points[s->order[g]];
         work->load[g] = g;
+        work->intersections[g] = q->intersections;
+        work->gap[g] = q->gap;
         memcpy(work->pressure + g * nc, q->pressure, (size_t)nc * sizeof(double));
         memcpy(work->U + g * 6, q->U, sizeof q->U);
         memcpy(work->J + g * 6 * nc, q->J, (size_t)(6 * nc) * sizeof(double));

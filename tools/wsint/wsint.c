@@ -57,6 +57,8 @@ static enum pm_status add_state(struct design *d, ptrdiff_t i, const char *path,
     memcpy(q->pressure, s->pressure, (size_t)m->nc * sizeof(double));
     memcpy(q->U, s->U, sizeof q->U);
     memcpy(q->J, s->J, (size_t)(6 * m->nc) * sizeof(double));
+    q->intersections = s->contact.intersections;
+    q->gap = s->contact.gap;
 done:
     return status;
 }
@@ -112,6 +114,20 @@ static void check_folds(const struct design *d, struct pm_work *w)
             "the workspace folds: det J has the wrong sign at %lld of %td points (%.3g to %.3g), "
             "folded parts count negative",
             (long long)w->sign_changes, d->np, w->min_det, w->max_det);
+}
+
+/* Contact is not modelled: states that penetrate themselves are not what the robot does. */
+static void check_contact(const struct design *d)
+{
+    ptrdiff_t n = 0, worst = 0;
+    for (ptrdiff_t i = 0; i < d->np; i++) {
+        n += d->points[i].intersections > 0;
+        if (d->points[i].intersections > d->points[worst].intersections)
+            worst = i;
+    }
+    if (n > 0)
+        pm_warn("the body penetrates itself in %td of %td states, with %lld pairs of faces in '%s'",
+                n, d->np, (long long)d->points[worst].intersections, d->points[worst].path);
 }
 
 /* The chosen form into *work, the other one (if given) as its quadrature error. */
@@ -248,6 +264,7 @@ enum pm_status wsint_run(const struct wsint_opts *opts, const struct pm_common *
     if (work.failure[0] == '\0') {
         PM_TRY(integrate(&d, form, &work, err));
         check_folds(&d, &work);
+        check_contact(&d);
     }
     PM_TRY(pm_case_copy(&d.pcase, &work.pcase, err));
     PM_TRY(pm_h5_create(common->output, "work", common,

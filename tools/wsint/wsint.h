@@ -30,6 +30,8 @@ struct wsint_point {
     double pressure[PM_MAX_CHAMBERS]; /* [p/mu] */
     double U[6];                      /* [mm, rad] */
     double J[6 * PM_MAX_CHAMBERS];    /* (6 x n) per unit of p/mu */
+    int64_t intersections;            /* of the deformed boundary with itself */
+    double gap;                       /* [mm] */
     int used;                         /* taken by a Gauss set */
 };
 
