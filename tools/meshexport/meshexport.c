@@ -1,0 +1,103 @@
+#include "tools/meshexport/meshexport.h"
+
+#include <errno.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "common/base/atomic.h"
+#include "common/base/log.h"
+#include "common/base/memory.h"
+#include "common/files/state.h"
+#include "tools/meshexport/compare.h"
+#include "tools/meshexport/deck.h"
+
+/* A state whose element CalculiX has too: the plain ones. */
+static enum pm_status load_state(const char *path, struct pm_state *s, struct pm_err *err)
+{
+    enum pm_status status;
+    PM_TRY(pm_state_load(path, 0, s, err));
+    const char *plain = s->mesh.npe == 10 ? "tet10" : "tet4";
+    if (strcmp(s->element, plain) != 0)
+        status = pm_fail(err, PM_INPUT,
+                         "cannot use '%s': element '%s', expected one that CalculiX has: '%s'",
+                         path, s->element, plain);
+done:
+    return status;
+}
+
+/* Whole or not at all. */
+static enum pm_status write_deck(const struct deck *d, const char *path, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_atomic file = {.slot = -1};
+    FILE *out = NULL;
+    PM_TRY(pm_atomic_begin(&file, path, err));
+    out = fopen(file.temporary, "wb");
+    if (out == NULL)
+        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", path, strerror(errno)));
+    PM_TRY(deck_write(d, out, err));
+    int failed = ferror(out);
+    failed |= fclose(out);
+    out = NULL;
+    if (failed)
+        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", path, strerror(errno)));
+    status = pm_atomic_commit(&file, err);
+done:
+    if (out != NULL)
+        fclose(out);
+    pm_atomic_abort(&file);
+    return status;
+}
+
+static enum pm_status export_deck(const struct meshexport_opts *o, const struct pm_common *common,
+                                  struct pm_err *err)
+{
+    enum pm_status status;
+    const char *path = common->operands[0];
+    struct pm_state s = {0};
+    if (o->npressure == 0)
+        PM_TRY(load_state(path, &s, err));
+    else
+        PM_TRY(pm_mesh_load(path, 0, &s.mesh, err));
+    PM_TRY(deck_check(&s.mesh, path, err));
+    if (o->npressure > 0 && o->npressure != s.mesh.nc)
+        PM_TRY(pm_fail(err, PM_USAGE, "option --pressure: %d values for %td chambers", o->npressure,
+                       s.mesh.nc));
+    const struct deck d = {.mesh = &s.mesh,
+                           .pressure = o->npressure > 0 ? o->pressure : s.pressure,
+                           .steps = o->steps,
+                           .title = common->command};
+    PM_TRY(write_deck(&d, common->output, err));
+    pm_log(1, "%td nodes, %td elements %s, %td chambers", s.mesh.nn, s.mesh.ne,
+           s.mesh.npe == 10 ? "C3D10" : "C3D4", s.mesh.nc);
+done:
+    pm_state_release(&s);
+    return status;
+}
+
+static enum pm_status compare(const char *results, const char *path, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_state s = {0};
+    double *u = NULL;
+    PM_TRY(load_state(path, &s, err));
+    PM_TRY(PM_NEW(u, 3 * (s.mesh.nn + 2), err));
+    PM_TRY(compare_read(results, s.mesh.nn + 2, u, err));
+    PM_TRY(compare_print(&s, u, err));
+done:
+    pm_free(u);
+    pm_state_release(&s);
+    return status;
+}
+
+enum pm_status meshexport_run(const struct meshexport_opts *opts, const struct pm_common *common,
+                              struct pm_err *err)
+{
+    if (opts->compare != NULL && (common->output != NULL || opts->npressure > 0))
+        return pm_fail(err, PM_USAGE, "option --compare: expected no -o and no --pressure");
+    if (opts->compare != NULL)
+        return compare(opts->compare, common->operands[0], err);
+    if (common->output == NULL)
+        return pm_fail(err, PM_USAGE, "expected -o FILE or --compare JOB.dat");
+    return export_deck(opts, common, err);
+}
