@@ -30,6 +30,7 @@ ALL_CFLAGS = -std=c17 -pedantic -D_POSIX_C_SOURCE=200809L -DPM_VERSION='"$(VERSI
 	$(patsubst -I%,-isystem %,$(HDF5_CFLAGS)) $(CPPFLAGS)
 LIBS = $(HDF5_LIBS) -lcholmod -lmetis -lopenblas -lgsl -llbfgs -linih -lz -lm
 LIBS_tetmesh = -lgmsh
+LIBS_lib/gmsh_body = -lgmsh
 
 TOOLS := $(patsubst tools/%/main.c,%,$(wildcard tools/*/main.c))
 COMMON_SRC := $(wildcard common/*/*.c)
@@ -80,7 +81,7 @@ $B/libkernels.a: $(KERNEL_OBJ) $B/sources
 	@rm -f $@; $(AR) rcs $@ $(KERNEL_OBJ)
 
 $B/tests/%: $B/tests/%.o $B/libkernels.a $B/libpneumorph.a
-	$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ $(LIBS) -lcjson -o $@
+	$(CC) $(ALL_CFLAGS) $(LDFLAGS) $^ $(LIBS_$*) $(LIBS) -lcjson -o $@
 .PRECIOUS: $B/%.o
 
 -include $(COMMON_OBJ:.o=.d) $(wildcard $B/tools/*/*.d $B/tests/*/*.d)

@@ -1,11 +1,10 @@
 #!/bin/bash
-# tetmesh: what a mesh promises, morphing, determinism, refusals of surfaces and of gmsh files.
+# tetmesh: what a mesh promises, morphing, determinism, refusals of surfaces.
 # shellcheck disable=SC2016,SC2317 # awk and sed programs; functions that check calls
 . tests/lib.sh
 
 out=$work/output
 tetmesh=$BIN/tetmesh
-sphere=$LIB/thick_sphere
 check "a small robot" "$BIN/surfgen" tests/data/tiny.ini -o "$work/s.h5"
 
 # Volumes of chambers: 3 % at three edges around a chamber (seen 1.8 %), 0.5 % at the finer mesh.
@@ -65,46 +64,4 @@ refused 2 "size of an import" "do not go with --import" "$tetmesh" --import a.ms
 refused 2 "half a reference" "option --reference: found '1,2', expected X,Y,Z" \
     "$tetmesh" --import a.msh --mu 1 --reference 1,2 -o "$out/x.h5"
 
-# gmsh files
-import() {
-    "$tetmesh" --import "$1" --mu 1 "${@:2}"
-}
-for format in 2.2 2.2b 4.1; do
-    "$sphere" write 3 2 $format "$work/$format.msh"
-    expect 0 "format $format" import "$work/$format.msh" -o "$work/$format.h5" -v
-    cp "$work/err" "$work/said-$format"
-done
-check "2.2: the mesh of so many parts" grep -q "140 nodes, 54 tetrahedra" "$work/said-2.2"
-check "binary 2.2: the same mesh" cmp "$work/said-2.2" "$work/said-2.2b"
-check "4.1: the same mesh" cmp "$work/said-2.2" "$work/said-4.1"
-"$sphere" write 3 2 linear "$work/linear.msh"
-expect 0 "linear tetrahedra" import "$work/linear.msh" -o "$work/linear.h5" -v
-check "stay linear" grep -q "30 nodes, 54 tetrahedra" "$work/err"
-expect 0 "linear tetrahedra, promoted" import "$work/linear.msh" --promote -o "$work/linear.h5" -v
-check "have middle nodes" grep -q "140 nodes, 54 tetrahedra" "$work/err"
-refused 2 "quadratic tetrahedra, promoted" "have 10 nodes already, expected 4" \
-    import "$work/2.2.msh" --promote -o "$out/x.h5"
-
-# damage NAME PATTERN SED: the file 2.2 edited.
-damage() {
-    sed -E "$3" "$work/2.2.msh" >"$work/bad.msh"
-    refused 3 "$1" "cannot use '.*bad.msh': $2" import "$work/bad.msh" -o "$out/x.h5"
-}
-damage "no body" "there is no physical group 'body'" 's/"body"/"solid"/'
-damage "nothing holds it" "nothing holds the body" 's/"symmetry-x"/"chamber2"/'
-damage "open chamber" "group 'chamber1' is not closed at the edge" 's/^1 9 2 2 2 /1 9 2 3 3 /'
-damage "chambers out of order" "there is a group 'chamber2' but no 'chamber1'" 's/"chamber1"/"chamber2"/'
-damage "face in no group" "the boundary face of nodes .* is in no group" 's/^1 9 2 2 2 /1 9 2 9 9 /'
-damage "group inside the body" "group 'exterior': the triangle of nodes .* is not on the boundary" \
-    '0,/^[0-9]+ 9 2 3 3 /s/^([0-9]+ 9 2 3 3) [0-9]+/\1 1/'
-damage "curved symmetry plane" "group 'symmetry-x' is not planar: node" \
-    's/"symmetry-x"/"swap"/; s/"exterior"/"symmetry-x"/; s/"swap"/"exterior"/'
-damage "not a number" "node 1 is at \(.*nan" '0,/^1 0 0 1$/s/^1 0 0 1$/1 nan 0 1/'
-damage "coinciding nodes" "nodes 1 and 2 coincide" '/Nodes/,/EndNodes/s/^2 .*/2 0 0 1/'
-damage "inverted tetrahedron" "the tetrahedron of nodes .* is inverted" \
-    '0,/ 11 2 1 1 /s/( 11 2 1 1) ([0-9]+) ([0-9]+)/\1 \3 \2/'
-damage "missing node" "it cannot be read: gmsh says" '0,/ 11 2 1 1 /s/( 11 2 1 1) [0-9]+/\1 99999/'
-damage "not a mesh" "it does not begin with .MeshFormat" '1s/.*/Point(1) = {0, 0, 0};/'
-damage "cut short" "it cannot be read|an element refers|there is no" '/EndNodes/,$d'
-refused 3 "no such file" "cannot use '.*none.msh': No such file" import "$work/none.msh" -o "$out/x.h5"
 finish

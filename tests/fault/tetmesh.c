@@ -6,6 +6,7 @@
 #include "tests/robot.h"
 #include "tests/tap.h"
 #include "tools/tetmesh/edges.h"
+#include "tools/tetmesh/import_check.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/weights.h"
 
@@ -79,6 +80,30 @@ done:
     return status;
 }
 
+/* Two 10-node tetrahedra on one face,
+ * no boundary faces. */
+static enum pm_status import_checks(struct pm_err *err)
+{
+    static const int32_t vertices[8] = {0, 1, 2, 3, 1, 2, 3, 4};
+    static const int32_t tet[20] = {0, 1, 2, 3, 5, 6, 7,  8,  9,  10,
+                                    1, 2, 3, 4, 6, 9, 10, 11, 12, 13};
+    static int64_t tag[14];
+    static double x[42];
+    struct pm_mesh m = {.nn = 14, .ne = 2, .npe = 10, .npf = 6, .x = x, .tag = tag};
+    enum pm_status status = PM_OK;
+    for (int i = 0; i < 42; i++)
+        x[i] = i;
+    PM_TRY(PM_NEW(m.tet, 20, err));
+    memcpy(m.tet, tet, sizeof tet);
+    PM_TRY(pm_import_check_nodes(&m, err));
+    PM_TRY(pm_import_check_parts(&m, vertices, err));
+    PM_TRY(pm_import_check_middles(&m, vertices, err));
+    PM_TRY(pm_import_check_closed(&m, err));
+done:
+    pm_free(m.tet);
+    return status;
+}
+
 static void check(const char *name, enum pm_status (*job)(struct pm_err *err))
 {
     enum pm_status status = PM_SYSTEM;
@@ -104,6 +129,7 @@ int main(void)
     check("edges and faces", edges);
     check("weights", weights);
     check("two-face tetrahedra", split);
+    check("checks of an imported mesh", import_checks);
     pm_surfaces_release(&robot);
     return tap_done();
 }

@@ -89,12 +89,13 @@ enum pm_status pm_import_check_elements(const struct pm_mesh *m, struct pm_err *
         for (int k = 1; k < 4; k++)
             for (int i = 0; i < 3; i++)
                 size += (X[3 * k + i] - X[i]) * (X[3 * k + i] - X[i]);
-        if (!(low > 1e-9 * size * sqrt(size)))
+        const double least = 1e-9 * size * sqrt(size);
+        if (!(low > least))
             return pm_fail(
                 err, PM_INPUT,
                 "the tetrahedron of nodes %lld %lld %lld %lld is %s: smallest det dX/dxi = %g mm3",
                 (long long)m->tag[v[0]], (long long)m->tag[v[1]], (long long)m->tag[v[2]],
-                (long long)m->tag[v[3]], low < 0 ? "inverted" : "flat", low);
+                (long long)m->tag[v[3]], low < -least ? "inverted" : "flat", low);
     }
     return PM_OK;
 }
@@ -213,7 +214,7 @@ static enum pm_status sorted_sides(const struct pm_mesh *m, struct side **out, s
     return PM_OK;
 }
 
-static enum pm_status check_closed(const struct pm_mesh *m, struct pm_err *err)
+enum pm_status pm_import_check_closed(const struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct side *s = NULL;
@@ -239,14 +240,27 @@ done:
     return status;
 }
 
-enum pm_status pm_import_check_faces(const struct pm_mesh *m, struct pm_err *err)
+enum pm_status pm_import_check_held(const struct pm_mesh *m, struct pm_err *err)
+{
+    int base = 0, plane[3] = {0};
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        base |= m->tri_tag[f] == PM_FACE_BASE;
+        for (int axis = 0; axis < 3; axis++)
+            plane[axis] |= m->tri_tag[f] == PM_FACE_SYM_X - axis;
+    }
+    if (base || (plane[0] && plane[1] && plane[2]))
+        return PM_OK;
+    return pm_fail(err, PM_INPUT,
+                   "nothing holds the body: expected the group 'base', or 'symmetry-x', "
+                   "'symmetry-y' and 'symmetry-z'");
+}
+
+enum pm_status pm_import_check_planes(const struct pm_mesh *m, struct pm_err *err)
 {
     const double limit = 1e-6 * extent(m);
     double plane[3] = {NAN, NAN, NAN};
-    int base = 0;
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         const int axis = PM_FACE_SYM_X - m->tri_tag[f];
-        base |= m->tri_tag[f] == PM_FACE_BASE;
         for (ptrdiff_t k = 0; k < m->npf && axis >= 0 && axis < 3; k++) {
             const int32_t a = m->tri[m->npf * f + k];
             const double x = m->x[3 * (ptrdiff_t)a + axis];
@@ -256,12 +270,8 @@ enum pm_status pm_import_check_faces(const struct pm_mesh *m, struct pm_err *err
                 return pm_fail(
                     err, PM_INPUT,
                     "group 'symmetry-%c' is not planar: node %lld has %c = %.9g, expected %.9g",
-                    "xyz"[axis], (long long)m -> tag[a], "xyz"[axis], x, plane[axis]);
+                    "xyz"[axis], (long long)(m->tag[a]), "xyz"[axis], x, plane[axis]);
         }
     }
-    if (!base && (isnan(plane[0]) || isnan(plane[1]) || isnan(plane[2])))
-        return pm_fail(err, PM_INPUT,
-                       "nothing holds the body: expected the group 'base', or 'symmetry-x', "
-                       "'symmetry-y' and 'symmetry-z'");
-    return check_closed(m, err);
+    return PM_OK;
 }

@@ -15,7 +15,11 @@ enum pm_status pm_import_check_parts(const struct pm_mesh *m, const int32_t *ver
 /* One middle node on every edge. */
 enum pm_status pm_import_check_middles(const struct pm_mesh *m, const int32_t *vertices,
                                        struct pm_err *err);
-/* Chambers closed up to symmetry planes, symmetry planes planar, and the body held. */
-enum pm_status pm_import_check_faces(const struct pm_mesh *m, struct pm_err *err);
+/* There is a base, or there are three symmetry planes. */
+enum pm_status pm_import_check_held(const struct pm_mesh *m, struct pm_err *err);
+/* All nodes of a symmetry plane are on one plane across its axis. */
+enum pm_status pm_import_check_planes(const struct pm_mesh *m, struct pm_err *err);
+/* Chambers are closed up to symmetry planes. */
+enum pm_status pm_import_check_closed(const struct pm_mesh *m, struct pm_err *err);
 
 #endif

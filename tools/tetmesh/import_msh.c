@@ -52,8 +52,6 @@ static enum pm_status read_groups(struct importing *c, struct pm_err *err)
     PM_TRY(PM_NEW(c->tag, c->raw.ng, err));
     for (ptrdiff_t g = 0; g < c->raw.ng; g++) {
         c->tag[g] = face_tag(c->raw.name[g]);
-        if (c->tag[g] == NO_TAG)
-            pm_warn("group '%s' is not used", c->raw.name[g]);
         if (c->tag[g] > PM_MAX_CHAMBERS)
             PM_TRY(pm_fail(err, PM_INPUT, "group '%s': expected at most %d chambers",
                            c->raw.name[g], (int)PM_MAX_CHAMBERS));
@@ -219,7 +217,6 @@ static enum pm_status tag_faces(struct importing *c, struct pm_err *err)
     enum pm_status status = PM_OK;
     struct pm_mesh *m = c->m;
     struct key *keys = NULL;
-    int exterior = 0;
     PM_TRY(PM_NEW(keys, m->nf, err));
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         memcpy(keys[f].v, m->tri + m->npf * f, sizeof keys[f].v);
@@ -229,20 +226,28 @@ static enum pm_status tag_faces(struct importing *c, struct pm_err *err)
     qsort(keys, (size_t)m->nf, sizeof *keys, by_key);
     for (ptrdiff_t t = 0; t < c->raw.nt; t++)
         PM_TRY(tag_face(c, keys, t, err));
+done:
+    pm_free(keys);
+    return status;
+}
+
+/* Faces in no group are exterior, unless that group is given. */
+static enum pm_status tag_others(const struct importing *c, struct pm_err *err)
+{
+    struct pm_mesh *m = c->m;
+    int exterior = 0;
     for (ptrdiff_t g = 0; g < c->raw.ng; g++)
         exterior |= c->tag[g] == PM_FACE_EXTERIOR;
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         const int32_t *v = m->tri + m->npf * f;
         if (m->tri_tag[f] == NO_TAG && exterior)
-            PM_TRY(
-                pm_fail(err, PM_INPUT, "the boundary face of nodes %lld %lld %lld is in no group",
-                        (long long)m->tag[v[0]], (long long)m->tag[v[1]], (long long)m->tag[v[2]]));
+            return pm_fail(
+                err, PM_INPUT, "the boundary face of nodes %lld %lld %lld is in no group",
+                (long long)m->tag[v[0]], (long long)m->tag[v[1]], (long long)m->tag[v[2]]);
         if (m->tri_tag[f] == NO_TAG)
             m->tri_tag[f] = PM_FACE_EXTERIOR;
     }
-done:
-    pm_free(keys);
-    return status;
+    return PM_OK;
 }
 
 /* Nodes of face f (6 x 3); a 3-node one gets the middles of its edges. */
@@ -288,9 +293,10 @@ static void find_reference(struct pm_mesh *m)
 }
 
 /* No surface, no weights. */
-static enum pm_status finish(struct pm_mesh *m, struct pm_err *err)
+static enum pm_status finish(const struct importing *c, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
+    struct pm_mesh *m = c->m;
     double mean_ratio;
     PM_TRY(PM_NEW(m->surface, m->nn, err));
     memset(m->surface, 0xff, (size_t)m->nn * sizeof *m->surface);
@@ -307,6 +313,9 @@ static enum pm_status finish(struct pm_mesh *m, struct pm_err *err)
         pm_warn(
             "an element may be inverted between its nodes: lower bound of the scaled Jacobian %.3f",
             m->min_jacobian);
+    for (ptrdiff_t g = 0; g < c->raw.ng; g++)
+        if (c->tag[g] == NO_TAG)
+            pm_warn("group '%s' is not used", c->raw.name[g]);
 done:
     return status;
 }
@@ -331,8 +340,11 @@ static enum pm_status import(const char *path, int promote_it, struct pm_mesh *m
     PM_TRY(pm_import_check_middles(m, c.vertices, err));
     PM_TRY(take_faces(&c, err));
     PM_TRY(tag_faces(&c, err));
-    PM_TRY(pm_import_check_faces(m, err));
-    PM_TRY(finish(m, err));
+    PM_TRY(pm_import_check_held(m, err));
+    PM_TRY(tag_others(&c, err));
+    PM_TRY(pm_import_check_planes(m, err));
+    PM_TRY(pm_import_check_closed(m, err));
+    PM_TRY(finish(&c, err));
 done:
     pm_msh_release(&c.raw);
     pm_free(c.place);
