@@ -74,7 +74,7 @@ expect 0 "pmplot draws linear faces" "$BIN/pmplot" deformed "$work/linear.h5"
 check "one facet each" test "$(grep -c '^[-0-9]' "$work/out")" -eq 16
 
 # Refusals: files of the octant of a thick sphere, edited.
-"$sphere" write 3 2 2.2 "$work/quadratic.msh"
+"$sphere" write 3 2 quadratic "$work/quadratic.msh"
 "$sphere" write 3 2 linear "$work/linear.msh"
 refuse() {
     refused 3 "$1" "cannot use '.*bad.msh': $2" import "$work/bad.msh" -o "$out/x.h5"

@@ -1,8 +1,8 @@
-/* An octant of a thick sphere, 1 <= r <= 2, as a gmsh file of curved 10-node tetrahedra, and the
- * radial displacement of its surfaces in a state file. thick_sphere write N M FORMAT FILE.msh   N
- * parts a side, M layers; FORMAT 2.2, 2.2b (binary), 4.1 or linear (2.2 with 4-node tetrahedra)
- *   thick_sphere read STATE.h5               prints the mean radial displacements at r = 1 and r =
- * 2 */
+/* An octant of a thick sphere, 1 <= r <= 2, as a gmsh 2.2 file, and the radial displacement of its
+ * surfaces in a state file.
+ *   thick_sphere write N M ORDER FILE.msh   N parts a side, M layers; ORDER quadratic (curved) or
+ *                                           linear
+ *   thick_sphere read STATE.h5              the mean radial displacements at r = 1 and r = 2 */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,8 +18,8 @@ static const char *const group_name[GROUPS + 1] = {
     "", "body", "chamber1", "exterior", "symmetry-x", "symmetry-y", "symmetry-z"};
 
 struct octant {
-    int n, m, nv, nn, ne, nt, binary, corners; /* parts, layers, vertices, nodes ... */
-    int id[MAX_SIDE + 1][MAX_SIDE + 1];        /* direction (i, j, n - i - j) */
+    int n, m, nv, nn, ne, nt, corners;  /* parts, layers, vertices, nodes ... */
+    int id[MAX_SIDE + 1][MAX_SIDE + 1]; /* direction (i, j, n - i - j) */
     int nd;
     double dir[MAX_SIDE * MAX_SIDE][3];
     double (*x)[3]; /* nodes */
@@ -137,104 +137,40 @@ static void build(struct octant *o)
             }
 }
 
-static void put(const struct octant *o, FILE *f, const int *v, int n)
-{
-    if (o->binary)
-        fwrite(v, sizeof *v, (size_t)n, f);
-    for (int k = 0; k < n && !o->binary; k++)
-        fprintf(f, "%d%c", v[k], k == n - 1 ? '\n' : ' ');
-}
-
 static void put_element(const struct octant *o, FILE *f, int number, int group, const int *node)
 {
     const int volume = group == BODY, n = volume ? o->corners : o->corners == 10 ? 6 : 3;
     const int type = volume ? (n == 10 ? 11 : 4) : n == 6 ? 9 : 2;
-    const int block[3] = {type, 1, 2}, head[3] = {number, group, group},
-              text[5] = {number, type, 2, group, group};
-    int line[15];
-    if (o->binary) {
-        put(o, f, block, 3);
-        put(o, f, head, 3);
-        for (int k = 0; k < n; k++)
-            line[k] = node[k] + 1;
-        put(o, f, line, n);
-        return;
-    }
-    memcpy(line, text, sizeof text);
+    fprintf(f, "%d %d 2 %d %d", number, type, group, group);
     for (int k = 0; k < n; k++)
-        line[5 + k] = node[k] + 1;
-    put(o, f, line, 5 + n);
+        fprintf(f, " %d", node[k] + 1);
+    fprintf(f, "\n");
 }
 
 static void write_22(const struct octant *o, FILE *f)
 {
-    const int one = 1, nn = o->corners == 10 ? o->nn : o->nv;
-    fprintf(f, "$MeshFormat\n2.2 %d 8\n", o->binary);
-    if (o->binary)
-        fwrite(&one, sizeof one, 1, f);
-    fprintf(f, "%s$EndMeshFormat\n$PhysicalNames\n%d\n", o->binary ? "\n" : "", GROUPS);
+    const int nn = o->corners == 10 ? o->nn : o->nv;
+    fprintf(f, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n", GROUPS);
     for (int g = 1; g <= GROUPS; g++)
         fprintf(f, "%d %d \"%s\"\n", g == BODY ? 3 : 2, g, group_name[g]);
     fprintf(f, "$EndPhysicalNames\n$Nodes\n%d\n", nn);
-    for (int a = 0; a < nn; a++) {
-        const int number = a + 1;
-        if (o->binary) {
-            fwrite(&number, sizeof number, 1, f);
-            fwrite(o->x[a], sizeof o->x[a], 1, f);
-        } else {
-            fprintf(f, "%d %.17g %.17g %.17g\n", number, o->x[a][0], o->x[a][1], o->x[a][2]);
-        }
-    }
-    fprintf(f, "%s$EndNodes\n$Elements\n%d\n", o->binary ? "\n" : "", o->nt + o->ne);
+    for (int a = 0; a < nn; a++)
+        fprintf(f, "%d %.17g %.17g %.17g\n", a + 1, o->x[a][0], o->x[a][1], o->x[a][2]);
+    fprintf(f, "$EndNodes\n$Elements\n%d\n", o->nt + o->ne);
     for (int t = 0; t < o->nt; t++)
         put_element(o, f, t + 1, o->tri[t][6], o->tri[t]);
     for (int e = 0; e < o->ne; e++)
         put_element(o, f, o->nt + e + 1, BODY, o->tet[e]);
-    fprintf(f, "%s$EndElements\n", o->binary ? "\n" : "");
-}
-
-static void write_41(const struct octant *o, FILE *f)
-{
-    fprintf(f, "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n", GROUPS);
-    for (int g = 1; g <= GROUPS; g++)
-        fprintf(f, "%d %d \"%s\"\n", g == BODY ? 3 : 2, g, group_name[g]);
-    fprintf(f, "$EndPhysicalNames\n$Entities\n0 0 %d 1\n", GROUPS - 1);
-    for (int g = 2; g <= GROUPS; g++)
-        fprintf(f, "%d 0 0 0 2 2 2 1 %d 0\n", g, g);
-    fprintf(f, "%d 0 0 0 2 2 2 1 %d 0\n$EndEntities\n$Nodes\n1 %d 1 %d\n3 %d 0 %d\n", BODY, BODY,
-            o->nn, o->nn, BODY, o->nn);
-    for (int a = 0; a < o->nn; a++)
-        fprintf(f, "%d\n", a + 1);
-    for (int a = 0; a < o->nn; a++)
-        fprintf(f, "%.17g %.17g %.17g\n", o->x[a][0], o->x[a][1], o->x[a][2]);
-    fprintf(f, "$EndNodes\n$Elements\n%d %d 1 %d\n", GROUPS, o->nt + o->ne, o->nt + o->ne);
-    for (int g = 2, number = 1; g <= GROUPS + 1; g++) {
-        const int group = g > GROUPS ? BODY : g, count = group == BODY ? o->ne : o->nt;
-        int n = 0;
-        for (int t = 0; t < count; t++)
-            n += group == BODY || o->tri[t][6] == group;
-        fprintf(f, "%d %d %d %d\n", group == BODY ? 3 : 2, group, group == BODY ? 11 : 9, n);
-        for (int t = 0; t < count; t++) {
-            const int *v = group == BODY ? o->tet[t] : o->tri[t];
-            if (group != BODY && o->tri[t][6] != group)
-                continue;
-            fprintf(f, "%d", number++);
-            for (int k = 0; k < (group == BODY ? 10 : 6); k++)
-                fprintf(f, " %d", v[k] + 1);
-            fprintf(f, "\n");
-        }
-    }
     fprintf(f, "$EndElements\n");
 }
 
-static int write_octant(int n, int m, const char *format, const char *path)
+static int write_octant(int n, int m, const char *order, const char *path)
 {
     static struct octant o;
     const size_t side = (size_t)n, layers = (size_t)m;
     o.n = n;
     o.m = m;
-    o.binary = strcmp(format, "2.2b") == 0;
-    o.corners = strcmp(format, "linear") == 0 ? 4 : 10;
+    o.corners = strcmp(order, "linear") == 0 ? 4 : 10;
     o.x = calloc(MAX_NODES, sizeof *o.x);
     o.ends = calloc(MAX_NODES, sizeof *o.ends);
     o.tet = calloc(3 * side * side * layers, sizeof *o.tet);
@@ -244,10 +180,7 @@ static int write_octant(int n, int m, const char *format, const char *path)
         f == NULL)
         return 1;
     build(&o);
-    if (strcmp(format, "4.1") == 0)
-        write_41(&o, f);
-    else
-        write_22(&o, f);
+    write_22(&o, f);
     free(o.x);
     free(o.ends);
     free(o.tet);
@@ -286,6 +219,6 @@ int main(int argc, char **argv)
                             argv[5]);
     if (argc == 3 && strcmp(argv[1], "read") == 0)
         return read_state(argv[2]);
-    fprintf(stderr, "usage: thick_sphere write N M FORMAT FILE | read STATE\n");
+    fprintf(stderr, "usage: thick_sphere write N M ORDER FILE | read STATE\n");
     return 2;
 }

@@ -10,7 +10,7 @@ sphere=$LIB/thick_sphere
 
 # solve N M: $1 parts a side, $2 layers; the errors are appended to $work/table.
 solve() {
-    "$sphere" write "$1" "$2" 2.2 "$work/s.msh" &&
+    "$sphere" write "$1" "$2" quadratic "$work/s.msh" &&
         "$BIN/tetmesh" --import "$work/s.msh" --mu 1 --kappa 100 -o "$work/s.h5" &&
         "$BIN/fesolve" "$work/s.h5" --pressure 0.12 -o "$work/state.h5" &&
         "$sphere" read "$work/state.h5" |
