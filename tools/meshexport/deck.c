@@ -8,9 +8,9 @@
 /* Fields of a deck are read from 20 characters. */
 #define NUMBER "%.13e"
 
-/* [Pa / MPa]: stresses of the deck are in Pa, hence forces in micronewtons. CalculiX takes a
- * residual below 1e-6 for zero whatever its unit. */
-static const double PASCAL = 1e6;
+/* [kPa / MPa]: the deck is in mm, kPa and mN. CalculiX takes a residual below 1e-6 for zero and a
+ * D1 below 1e-10 for a wish to be given one, whatever the unit. */
+static const double KILOPASCAL = 1e3;
 
 /* The second step holds the load until the result stands in the digits that are printed (seven):
  * CalculiX stops at corrections of 1 %, and its convergence is linear, with a factor of 0.3 to 0.8.
@@ -174,11 +174,11 @@ enum pm_status deck_check(const struct pm_mesh *mesh, const char *path, struct p
     return PM_OK;
 }
 
-/* Volumetric energy (J - 1)^2 / D1 there, kappa/2 (J - 1)^2 here; of the powers that it has besides
- * we have none, D2 = D3 = 0 means so. Ogden: 2 mu_i/alpha_i^2 there, mu_i/alpha_i here. */
+/* Volumetric energy sum_i (J - 1)^(2 i) / D_i there, kappa/2 (J - 1)^2 here: D2 and D3 are very
+ * large, zero would be replaced. Ogden: 2 mu_i/alpha_i^2 there, mu_i/alpha_i here. */
 static void write_material(const struct pm_case *c, FILE *out)
 {
-    const double *k = c->law_parameter, s = PASCAL, D1 = 2 / (s * c->kappa);
+    const double *k = c->law_parameter, s = KILOPASCAL, D1 = 2 / (s * c->kappa);
     fprintf(out, "*MATERIAL, NAME=RUBBER\n");
     if (strcmp(c->law, "neo-hookean") == 0) {
         fprintf(out, "*HYPERELASTIC, NEO HOOKE\n" NUMBER "," NUMBER "\n", s * k[0] / 2, D1);
@@ -186,14 +186,15 @@ static void write_material(const struct pm_case *c, FILE *out)
         fprintf(out, "*HYPERELASTIC, MOONEY-RIVLIN\n" NUMBER "," NUMBER "," NUMBER "\n", s * k[0],
                 s * k[1], D1);
     } else if (strcmp(c->law, "yeoh") == 0) {
-        fprintf(out, "*HYPERELASTIC, YEOH\n" NUMBER "," NUMBER "," NUMBER "," NUMBER ",0.,0.\n",
+        fprintf(out,
+                "*HYPERELASTIC, YEOH\n" NUMBER "," NUMBER "," NUMBER "," NUMBER ",1.e30,1.e30\n",
                 s * k[0], s * k[1], s * k[2], D1);
     } else {
         const ptrdiff_t n = c->nlaw_parameter / 2;
         fprintf(out, "*HYPERELASTIC, OGDEN, N=%td\n", n);
         for (ptrdiff_t i = 0; i < n; i++)
             fprintf(out, NUMBER "," NUMBER ",", s * k[2 * i] * k[2 * i + 1] / 2, k[2 * i + 1]);
-        fprintf(out, NUMBER "%s\n", D1, n == 1 ? "" : n == 2 ? ",0." : ",0.\n0.");
+        fprintf(out, NUMBER "%s\n", D1, n == 1 ? "" : n == 2 ? ",1.e30" : ",1.e30\n1.e30");
     }
     fprintf(out, "*SOLID SECTION, ELSET=BODY, MATERIAL=RUBBER\n");
 }
@@ -244,7 +245,7 @@ enum pm_status deck_write(const struct deck *d, FILE *out, struct pm_err *err)
     fprintf(out, "*STEP, NLGEOM, INC=100000\n*STATIC\n" NUMBER ",1.,1.e-6," NUMBER "\n*DSLOAD\n",
             1.0 / (double)d->steps, 1.0 / (double)d->steps);
     for (ptrdiff_t r = 0; r < m->nc; r++)
-        fprintf(out, "CHAMBER%td,P," NUMBER "\n", r + 1, d->pressure[r] * m->pcase.mu * PASCAL);
+        fprintf(out, "CHAMBER%td,P," NUMBER "\n", r + 1, d->pressure[r] * m->pcase.mu * KILOPASCAL);
     fprintf(out, "%s%s%s", print, hold, print);
 done:
     pm_free(sets);

@@ -1,6 +1,6 @@
 /* The input deck of CalculiX (of Abaqus but for the rigid body) for the problem of a mesh [model 1
  * to 3]: node a is number a + 1, then follow the reference node and the rotation node of the
- * end-effector, whose displacement is the rotation vector. Units mm, Pa. Two load steps of time 1:
+ * end-effector, whose displacement is the rotation vector. Units mm, kPa. Two load steps of time 1:
  * the load in increments, then held until the digits stand. */
 #ifndef PM_MESHEXPORT_DECK_H
 #define PM_MESHEXPORT_DECK_H

@@ -11,16 +11,51 @@
 #include "tools/meshexport/compare.h"
 #include "tools/meshexport/deck.h"
 
-/* A state whose element CalculiX has too: the plain ones. */
+/* Leaves the vertices and what belongs to them. */
+static enum pm_status drop_edge_nodes(struct pm_state *s, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_mesh *m = &s->mesh;
+    int32_t *to = NULL;
+    ptrdiff_t nn = 0;
+    PM_TRY(PM_NEW(to, m->nn, err));
+    for (ptrdiff_t i = 0; i < 4 * m->ne; i++) {
+        m->tet[i] = m->tet[m->npe * (i / 4) + i % 4];
+        to[m->tet[i]] = 1;
+    }
+    for (ptrdiff_t i = 0; i < 3 * m->nf; i++)
+        m->tri[i] = m->tri[m->npf * (i / 3) + i % 3];
+    for (ptrdiff_t a = 0; a < m->nn; a++) {
+        if (to[a] == 0)
+            continue;
+        memmove(m->x + 3 * nn, m->x + 3 * a, 3 * sizeof *m->x);
+        memmove(s->u + 3 * nn, s->u + 3 * a, 3 * sizeof *s->u);
+        to[a] = (int32_t)nn++;
+    }
+    for (ptrdiff_t i = 0; i < 4 * m->ne; i++)
+        m->tet[i] = to[m->tet[i]];
+    for (ptrdiff_t i = 0; i < 3 * m->nf; i++)
+        m->tri[i] = to[m->tri[i]];
+    m->nn = nn;
+    m->npe = 4;
+    m->npf = 3;
+done:
+    pm_free(to);
+    return status;
+}
+
+/* A state whose element CalculiX has too: the plain ones. Its mesh is the one of the element. */
 static enum pm_status load_state(const char *path, struct pm_state *s, struct pm_err *err)
 {
     enum pm_status status;
     PM_TRY(pm_state_load(path, 0, s, err));
-    const char *plain = s->mesh.npe == 10 ? "tet10" : "tet4";
-    if (strcmp(s->element, plain) != 0)
-        status = pm_fail(err, PM_INPUT,
-                         "cannot use '%s': element '%s', expected one that CalculiX has: '%s'",
-                         path, s->element, plain);
+    if (strcmp(s->element, "tet10") != 0 && strcmp(s->element, "tet4") != 0)
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "cannot use '%s': element '%s', expected one that CalculiX has: 'tet10' or "
+                       "'tet4'",
+                       path, s->element));
+    if (strcmp(s->element, "tet4") == 0 && s->mesh.npe == 10)
+        PM_TRY(drop_edge_nodes(s, err));
 done:
     return status;
 }
