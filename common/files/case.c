@@ -9,6 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/base/log.h"
 #include "common/base/memory.h"
 #include "common/files/case_complete.h"
 
@@ -32,12 +33,7 @@ struct key {
 static const struct key keys[] = {
     {"case", "name", WORD_AT(c.name)},
     {"material", "law", WORD_AT(c.law)},
-    {"material", "mu", NUMBER, POSITIVE, AT(mu), 0},
-    {"material", "c10", NUMBER, ANY, AT(c10), 0},
-    {"material", "c01", NUMBER, ANY, AT(c01), 0},
-    {"material", "c1", NUMBER, POSITIVE, AT(c1), 0},
-    {"material", "c2", NUMBER, ANY, AT(c2), 0},
-    {"material", "c3", NUMBER, ANY, AT(c3), 0},
+    {"material", "preset", WORD_AT(preset)},
     {"material", "kappa", NUMBER, POSITIVE, AT(c.kappa), 0},
     {"body", "shape", WORD_AT(body)},
     {"body", "height", NUMBER, POSITIVE, AT(c.height), 0},
@@ -83,6 +79,7 @@ struct parser {
     const char *file, *rest; /* name for messages; text still to be read */
     int line, too_long;
     unsigned char seen[NKEYS], seen_chamber[PM_MAX_CHAMBERS][NCHAMBER];
+    unsigned char seen_parameter[PM_MAX_LAWS][PM_MAX_LAW_PARAMETERS];
     struct pm_case_raw *raw;
     struct pm_err *err;
 };
@@ -213,6 +210,20 @@ static int take_chamber(struct parser *p, int r, const char *name, const char *v
     return 0;
 }
 
+/* A parameter of a law; -1: there is no such key. */
+static int take_parameter(struct parser *p, const char *name, const char *value)
+{
+    ptrdiff_t laws;
+    const struct pm_material_law *law = pm_material_laws(&laws);
+    for (ptrdiff_t l = 0; l < laws; l++)
+        for (ptrdiff_t i = 0; i < law[l].most; i++)
+            if (strcmp(law[l].key[i], name) == 0) {
+                const struct key k = {"material", law[l].key[i], NUMBER, ANY, 0, 0};
+                return take(p, &k, value, &p->seen_parameter[l][i], &p->raw->parameter[l][i]);
+            }
+    return -1;
+}
+
 static int handle(void *user, const char *section, const char *name, const char *value)
 {
     struct parser *p = user;
@@ -222,6 +233,11 @@ static int handle(void *user, const char *section, const char *name, const char 
     int r = chamber_number(section);
     if (r >= 0)
         return take_chamber(p, r, name, value);
+    if (strcmp(section, "material") == 0) {
+        const int taken = take_parameter(p, name, value);
+        if (taken >= 0)
+            return taken;
+    }
     for (int i = 0; i < NKEYS; i++) {
         if (strcmp(keys[i].section, section) != 0)
             continue;
@@ -241,8 +257,7 @@ static int handle(void *user, const char *section, const char *name, const char 
 /* What a case leaves out; NAN or "" where completion decides or refuses. */
 static void set_defaults(struct pm_case_raw *raw)
 {
-    *raw = (struct pm_case_raw){.c = {.law = "neo-hookean",
-                                      .kappa = NAN,
+    *raw = (struct pm_case_raw){.c = {.kappa = NAN,
                                       .height = NAN,
                                       .wall = NAN,
                                       .web = NAN,
@@ -261,14 +276,11 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .remesh_every = 5,
                                       .max_iterations = 140,
                                       .tolerance = 1e-2},
-                                .mu = NAN,
-                                .c10 = NAN,
-                                .c01 = NAN,
-                                .c1 = NAN,
-                                .c2 = 0,
-                                .c3 = 0,
                                 .group = "none",
                                 .form = "boundary"};
+    for (int l = 0; l < PM_MAX_LAWS; l++)
+        for (int i = 0; i < PM_MAX_LAW_PARAMETERS; i++)
+            raw->parameter[l][i] = NAN;
     for (int r = 0; r < PM_MAX_CHAMBERS; r++)
         raw->chamber[r].c = (struct pm_chamber){.center = {NAN, NAN, NAN},
                                                 .radius = NAN,
@@ -305,6 +317,16 @@ done:
     return status;
 }
 
+void pm_case_warn(const struct pm_case *c, const char *name)
+{
+    if (strcmp(c->law, "ogden") != 0)
+        return;
+    for (ptrdiff_t i = 0; i + 1 < c->nlaw_parameter; i += 2)
+        if (c->law_parameter[i] * c->law_parameter[i + 1] < 0)
+            pm_warn("'%s': mu%td alpha%td = %g MPa < 0: the law may be unstable at large strain",
+                    name, i / 2 + 1, i / 2 + 1, c->law_parameter[i] * c->law_parameter[i + 1]);
+}
+
 enum pm_status pm_case_load(const char *path, struct pm_case *c, struct pm_err *err)
 {
     enum pm_status status;
@@ -320,6 +342,7 @@ enum pm_status pm_case_load(const char *path, struct pm_case *c, struct pm_err *
     if (n == MAX_TEXT || memchr(text, '\0', n) != NULL)
         PM_TRY(pm_fail(err, PM_INPUT, "cannot use '%s': not a case file", path));
     PM_TRY(pm_case_parse(text, path, c, err));
+    pm_case_warn(c, path);
 done:
     if (stream != NULL)
         fclose(stream);

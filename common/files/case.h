@@ -6,8 +6,9 @@
 #include <stddef.h>
 
 #include "common/base/status.h"
+#include "common/files/material.h"
 
-enum { PM_MAX_CHAMBERS = 8, PM_MAX_OPS = 12, PM_MAX_LAW_PARAMETERS = 12 };
+enum { PM_MAX_CHAMBERS = 8, PM_MAX_OPS = 12 };
 
 enum pm_shape { PM_SHAPE_SPHERE, PM_SHAPE_ELLIPSOID, PM_SHAPE_CAPSULE, PM_SHAPE_BELLOWS };
 enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE };
@@ -79,7 +80,8 @@ struct pm_case {
 enum pm_status pm_case_parse(const char *text, const char *name, struct pm_case *c,
                              struct pm_err *err);
 enum pm_status pm_case_load(const char *path, struct pm_case *c, struct pm_err *err);
-/* A case that states only a material (imported meshes, tests): parse of a generated text. */
+/* Warns of what is allowed but seldom meant: an Ogden term with mu alpha < 0. */
+void pm_case_warn(const struct pm_case *c, const char *name);
 enum pm_status pm_case_copy(const struct pm_case *from, struct pm_case *to, struct pm_err *err);
 void pm_case_release(struct pm_case *c);
 

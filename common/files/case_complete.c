@@ -1,6 +1,7 @@
 #include "common/files/case_complete.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Slack of comparisons between numbers of the case file [mm]. */
@@ -20,47 +21,89 @@ static enum pm_status bad_word(const char *name, const char *key, const char *fo
                    found, expected);
 }
 
+static enum pm_status use_preset(struct pm_case_raw *raw, const char *name, struct pm_err *err)
+{
+    char names[256];
+    struct pm_case *c = &raw->c;
+    const struct pm_material_preset *p = pm_material_preset(raw->preset);
+    if (p == NULL) {
+        pm_material_preset_names(names, sizeof names);
+        return bad_word(name, "preset", raw->preset, names, err);
+    }
+    if (c->law[0] != '\0')
+        return pm_fail(err, PM_INPUT, "cannot use '%s': key 'law' does not go with 'preset'", name);
+    snprintf(c->law, sizeof c->law, "%s", p->law);
+    c->nlaw_parameter = p->n;
+    memcpy(c->law_parameter, p->c, sizeof p->c);
+    return PM_OK;
+}
+
+/* The parameters of a law given by keys: those of other laws (all laws with a preset) are refused.
+ */
+static enum pm_status use_keys(struct pm_case_raw *raw, const struct pm_material_law *law,
+                               const char *name, struct pm_err *err)
+{
+    struct pm_case *c = &raw->c;
+    ptrdiff_t laws, n = 0;
+    const struct pm_material_law *all = pm_material_laws(&laws);
+    for (ptrdiff_t l = 0; l < laws; l++)
+        for (ptrdiff_t i = 0; i < all[l].most; i++) {
+            if (isnan(raw->parameter[l][i]))
+                continue;
+            if (&all[l] != law)
+                return pm_fail(err, PM_INPUT,
+                               "cannot use '%s': key '%s' is not a parameter of %s '%s'", name,
+                               all[l].key[i], law != NULL ? "law" : "preset",
+                               law != NULL ? c->law : raw->preset);
+            n = i + 1;
+        }
+    if (law == NULL)
+        return PM_OK;
+    n = n < law->least ? law->least : n;
+    if (law->step > 1)
+        n = (n + law->step - 1) / law->step * law->step;
+    for (ptrdiff_t i = 0; i < n; i++) {
+        const double value = raw->parameter[law - all][i];
+        if (isnan(value) && (law->step > 0 || i < law->least))
+            return missing(name, "material", law->key[i], err);
+        c->law_parameter[i] = isnan(value) ? 0 : value;
+    }
+    c->nlaw_parameter = n;
+    return PM_OK;
+}
+
 static enum pm_status complete_material(struct pm_case_raw *raw, const char *name,
                                         struct pm_err *err)
 {
+    enum pm_status status;
     struct pm_case *c = &raw->c;
-    double *parameter = c->law_parameter;
-    int neo = strcmp(c->law, "neo-hookean") == 0, mooney = strcmp(c->law, "mooney-rivlin") == 0;
-    int yeoh = strcmp(c->law, "yeoh") == 0;
-    if (!neo && !mooney && !yeoh)
-        return bad_word(name, "law", c->law, "neo-hookean, mooney-rivlin or yeoh", err);
-    const struct {
-        const char *key;
-        int given, wanted;
-    } use[] = {
-        {"mu", !isnan(raw->mu), neo},
-        {"c10", !isnan(raw->c10), mooney},
-        {"c01", !isnan(raw->c01), mooney},
-        {"c1", !isnan(raw->c1), yeoh},
-    };
-    for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
-        if (use[i].wanted && !use[i].given)
-            return missing(name, "material", use[i].key, err);
-        if (use[i].given && !use[i].wanted)
-            return pm_fail(err, PM_INPUT,
-                           "cannot use '%s': key '%s' is not a parameter of law '%s'", name,
-                           use[i].key, c->law);
+    char names[256];
+    if (raw->preset[0] != '\0') {
+        PM_TRY(use_preset(raw, name, err));
+        PM_TRY(use_keys(raw, NULL, name, err));
+    } else {
+        if (c->law[0] == '\0')
+            snprintf(c->law, sizeof c->law, "neo-hookean");
+        if (pm_material_law(c->law) == NULL) {
+            pm_material_law_names(names, sizeof names);
+            PM_TRY(bad_word(name, "law", c->law, names, err));
+        }
+        PM_TRY(use_keys(raw, pm_material_law(c->law), name, err));
     }
-    if (!yeoh && (raw->c2 != 0 || raw->c3 != 0))
-        return pm_fail(err, PM_INPUT,
-                       "cannot use '%s': keys 'c2' and 'c3' are not parameters of law '%s'", name,
-                       c->law);
-    parameter[0] = neo ? raw->mu : mooney ? raw->c10 : raw->c1;
-    parameter[1] = mooney ? raw->c01 : yeoh ? raw->c2 : 0;
-    parameter[2] = yeoh ? raw->c3 : 0;
-    c->nlaw_parameter = neo ? 1 : mooney ? 2 : 3;
-    c->mu = neo ? raw->mu : mooney ? 2 * (raw->c10 + raw->c01) : 2 * raw->c1;
-    if (!(c->mu > 0))
-        return pm_fail(err, PM_INPUT, "cannot use '%s': 2 (c10 + c01) is %g, expected > 0", name,
-                       c->mu);
+    for (ptrdiff_t i = 1; strcmp(c->law, "ogden") == 0 && i < c->nlaw_parameter; i += 2)
+        if (c->law_parameter[i] == 0)
+            PM_TRY(pm_fail(err, PM_INPUT, "cannot use '%s': key 'alpha%td' is 0, expected another",
+                           name, i / 2 + 1));
+    c->mu = pm_material_shear(pm_material_law(c->law), c->nlaw_parameter, c->law_parameter);
+    if (!(c->mu > 0) || !isfinite(c->mu))
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "cannot use '%s': law '%s' has the small-strain shear modulus %g MPa, "
+                       "expected > 0",
+                       name, c->law, c->mu));
     if (isnan(c->kappa))
         c->kappa = 100 * c->mu;
-    return PM_OK;
+done:
+    return status;
 }
 
 static enum pm_status complete_body(struct pm_case_raw *raw, const char *name, struct pm_err *err)

@@ -13,7 +13,9 @@ struct pm_chamber_raw {
 struct pm_case_raw {
     struct pm_case c; /* NAN where not given */
     char body[16], group[64], form[16], dofs[32];
-    double mu, c10, c01, c1, c2, c3; /* [MPa] */
+    char preset[32];
+    /* Parameters of the l-th law of material.c; NAN where not given. */
+    double parameter[PM_MAX_LAWS][PM_MAX_LAW_PARAMETERS];
     struct pm_chamber_raw chamber[PM_MAX_CHAMBERS];
     unsigned listed; /* bit r: section [chamber r+1] exists */
 };

@@ -10,6 +10,7 @@
 
 enum { PM_LAW_MAX = 12 };
 
+/* In the order of common/files/material.c. */
 enum pm_law_kind { PM_LAW_NEO_HOOKEAN, PM_LAW_MOONEY_RIVLIN, PM_LAW_YEOH, PM_LAW_OGDEN };
 
 struct pm_law {

@@ -22,7 +22,9 @@ sed -n '/^\[case\]/,/^\.Ed/p' man/pneumorph-case.5 | sed '/^\./d' >"$work/pair.i
 check "the example of pneumorph-case(5) works" "$BIN/surfgen" "$work/pair.ini" -o "$work/pair.h5"
 
 # Every key the parser knows has its entry.
-sed -n 's/^ *{"\([a-z]*\)", "\([a-z0-9_]*\)",.*/\2/p' common/files/case.c | sort -u >"$work/keys"
+sed -n 's/^ *{"\([a-z]*\)", "\([a-z0-9_]*\)",.*/\2/p' common/files/case.c >"$work/some"
+sed -n '/pm_material_law laws/,/^};/p' common/files/material.c | grep -o '"[a-z0-9]*"' | tr -d '"' | grep -vx 'yeoh\|ogden' >>"$work/some"
+sort -u "$work/some" >"$work/keys"
 sed -n 's/^\.It Ic //p' man/pneumorph-case.5 | tr -d ',' | tr -s ' ' '\n' | sort -u >"$work/page"
 check "the parser has keys" test -s "$work/keys"
 check "pneumorph-case(5) lists the keys" diff "$work/keys" "$work/page"

@@ -58,8 +58,6 @@ refused 3 "a broken file is not recorded" "cannot open|cannot use" \
 refused 2 "size 0" "option --size: found 0" "$tetmesh" "$work/s.h5" --size 0 -o "$out/x.h5"
 refused 2 "surfaces and an import" "either SURF.h5 or --import" "$tetmesh" "$work/s.h5" --import a.msh -o "$out/x.h5"
 refused 2 "material without an import" "need --import" "$tetmesh" "$work/s.h5" --mu 1 -o "$out/x.h5"
-refused 2 "import without a material" "either --mu or --case" "$tetmesh" --import a.msh -o "$out/x.h5"
-refused 2 "law with a case" "do not go with --case" "$tetmesh" --import a.msh --case a.ini --law yeoh -o "$out/x.h5"
 refused 2 "size of an import" "do not go with --import" "$tetmesh" --import a.msh --mu 1 --size 2 -o "$out/x.h5"
 refused 2 "half a reference" "option --reference: found '1,2', expected X,Y,Z" \
     "$tetmesh" --import a.msh --mu 1 --reference 1,2 -o "$out/x.h5"

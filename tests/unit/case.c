@@ -94,6 +94,66 @@ static void test_groups(void)
     pm_case_release(&c);
 }
 
+#define MATERIAL "[case]\nname = m\n[material]\n"
+
+static void test_materials(void)
+{
+    struct pm_case c;
+    struct pm_err err = {.status = PM_OK};
+    ok(pm_case_parse(MATERIAL "law = ogden\nmu1 = 0.4\nalpha1 = 1.3\nalpha2 = 5\nmu2 = 0.01\n", "t",
+                     &c, &err) == PM_OK &&
+           c.nlaw_parameter == 4 && c.law_parameter[1] == 1.3 && c.law_parameter[2] == 0.01 &&
+           fabs(c.mu - 0.5 * (0.4 * 1.3 + 0.01 * 5)) < 1e-16,
+       "Ogden: two terms, mu is half the sum of mu_k alpha_k %s", err.text);
+    pm_case_release(&c);
+    ok(pm_case_parse(MATERIAL "law = yeoh\nc1 = 0.2\nc3 = 0.01\n", "t", &c, &err) == PM_OK &&
+           c.nlaw_parameter == 3 && c.law_parameter[1] == 0 && c.law_parameter[2] == 0.01,
+       "Yeoh: a constant left out is 0 %s", err.text);
+    pm_case_release(&c);
+    ok(pm_case_parse(MATERIAL "preset = elastosil-m4601\nkappa = 30\n", "t", &c, &err) == PM_OK &&
+           strcmp(c.law, "yeoh") == 0 && c.law_parameter[1] == 0.02 && c.kappa == 30,
+       "a preset with its own kappa %s", err.text);
+    pm_case_release(&c);
+}
+
+static void refused(const char *text, const char *says)
+{
+    struct pm_case c;
+    struct pm_err err = {.status = PM_OK};
+    int good = pm_case_parse(text, "t.ini", &c, &err) == PM_INPUT &&
+               strstr(err.text, says) != NULL && strstr(err.text, "'t.ini'") != NULL &&
+               c.text == NULL;
+    ok(good, "refused: %s", says);
+    if (!good)
+        printf("# got: %s\n", err.text);
+    pm_case_release(&c);
+}
+
+static void test_bad_materials(void)
+{
+    static const struct {
+        const char *text, *says;
+    } bad[] = {
+        {MATERIAL "mu = -1\n", "small-strain shear modulus -1 MPa, expected > 0"},
+        {MATERIAL "law = mooney-rivlin\nc10 = 0.1\n",
+         "key 'c01' in section '[material]' is missing"},
+        {MATERIAL "law = ogden\nmu1 = 1\n", "key 'alpha1' in section '[material]' is missing"},
+        {MATERIAL "law = ogden\nmu1 = 1\nalpha1 = 2\nmu3 = 1\nalpha3 = 4\n",
+         "key 'mu2' in section '[material]' is missing"},
+        {MATERIAL "law = ogden\nmu1 = 1\nalpha1 = 2\nmu2 = 1\nalpha2 = 0\n", "key 'alpha2' is 0"},
+        {MATERIAL "law = ogden\nmu1 = 1\nalpha1 = -2\n", "small-strain shear modulus -1 MPa"},
+        {MATERIAL "law = ogden\nmu1 = 1\nmu1 = 2\n",
+         "line 6: key 'mu1' is '2', expected each key once"},
+        {MATERIAL "law = ogden\nmu7 = 1\n", "line 5: unknown key 'mu7' in section '[material]'"},
+        {MATERIAL "preset = butter\n", "key 'preset' is 'butter', expected ecoflex-00-30"},
+        {MATERIAL "preset = sylgard-184\nlaw = yeoh\n", "key 'law' does not go with 'preset'"},
+        {MATERIAL "preset = sylgard-184\nmu = 1\n",
+         "'mu' is not a parameter of preset 'sylgard-184'"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        refused(bad[i].text, bad[i].says);
+}
+
 static void test_refusals(void)
 {
     static const struct {
@@ -144,23 +204,16 @@ static void test_refusals(void)
         {"[case]\nname = t\n[material]\nmu = 1\n[body]\nwall = 3\n",
          "key 'height' in section '[body]' is missing"},
     };
-    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
-        struct pm_case c;
-        struct pm_err err = {.status = PM_OK};
-        int good = pm_case_parse(bad[i].text, "t.ini", &c, &err) == PM_INPUT &&
-                   strstr(err.text, bad[i].says) != NULL && strstr(err.text, "'t.ini'") != NULL &&
-                   c.text == NULL;
-        ok(good, "refused: %s", bad[i].says);
-        if (!good)
-            printf("# got: %s\n", err.text);
-        pm_case_release(&c);
-    }
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        refused(bad[i].text, bad[i].says);
 }
 
 int main(void)
 {
     test_reference();
     test_groups();
+    test_materials();
+    test_bad_materials();
     test_refusals();
     struct pm_case c;
     struct pm_err err = {.status = PM_OK};

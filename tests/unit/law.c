@@ -60,6 +60,7 @@ int main(void)
     const cJSON *yeoh = cJSON_GetObjectItem(cJSON_GetObjectItem(root, "laws"), "Yeoh");
     reference_numbers(cJSON_GetObjectItem(yeoh, "params"), "c", c, 3);
     compare(root, "Yeoh", "yeoh", 3, c, 30.0);
+    compare(root, "Ogden", "ogden", 6, (const double[]){0.4, 1.3, 0.01, 5, -0.02, -2}, 30.0);
     struct pm_law l;
     struct pm_err err = {0};
     ok(pm_law_set(&l, "rubber", 3, c, 1.0, &err) == PM_INPUT, "an unknown law is refused: %s",

@@ -13,9 +13,11 @@ static const struct pm_option options[] = {
     {"reference", 0, "X,Y,Z",
      "import: reference point of the end-effector (default: centroid of the tip)"},
     {"case", 0, "CASE.ini", "import: case with the material"},
-    {"mu", 0, "MPA", "import: small-strain shear modulus, instead of --case"},
+    {"material", 0, "NAME", "import: a preset of pneumorph-case(5), instead of --case"},
+    {"law", 0, "NAME", "import: law of the material, instead of --case"},
+    {"parameters", 0, "C1,C2,..", "import: parameters of --law, in the order of pneumorph-case(5)"},
+    {"mu", 0, "MPA", "import: shear modulus of a neo-Hookean solid, instead of --case"},
     {"kappa", 0, "MPA", "import: bulk modulus (default: 100 mu)"},
-    {"law", 0, "NAME", "import: material law (default: neo-hookean)"},
     {0}};
 
 static enum pm_status positive(const char *name, const char *value, double *out, struct pm_err *err)
@@ -36,6 +38,16 @@ static enum pm_status reference(const char *name, const char *value, struct tetm
     return status;
 }
 
+static enum pm_status parameters(const char *name, const char *value, struct pm_material *m,
+                                 struct pm_err *err)
+{
+    int n = 0;
+    const enum pm_status status =
+        pm_parse_doubles(name, value, PM_MAX_LAW_PARAMETERS, m->c, &n, err);
+    m->n = n;
+    return status;
+}
+
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
 {
     struct tetmesh_opts *o = data;
@@ -47,11 +59,12 @@ static enum pm_status option(void *data, const char *name, const char *value, st
     } simple[] = {{"size", &o->size, NULL, NULL},
                   {"timeout", &o->timeout, NULL, NULL},
                   {"mu", &o->mu, NULL, NULL},
-                  {"kappa", &o->kappa, NULL, NULL},
+                  {"kappa", &o->material.kappa, NULL, NULL},
                   {"previous", NULL, &o->previous, NULL},
                   {"import", NULL, &o->import, NULL},
                   {"case", NULL, &o->case_file, NULL},
-                  {"law", NULL, &o->law, NULL},
+                  {"law", NULL, &o->material.law, NULL},
+                  {"material", NULL, &o->material.preset, NULL},
                   {"promote", NULL, NULL, &o->promote},
                   {"record-failure", NULL, NULL, &o->record_failure}};
     for (size_t k = 0; k < sizeof simple / sizeof simple[0]; k++) {
@@ -65,7 +78,8 @@ static enum pm_status option(void *data, const char *name, const char *value, st
             *simple[k].flag = 1;
         return PM_OK;
     }
-    return reference(name, value, o, err);
+    return strcmp(name, "parameters") == 0 ? parameters(name, value, &o->material, err)
+                                           : reference(name, value, o, err);
 }
 
 static enum pm_status run(void *data, const struct pm_common *common, struct pm_err *err)

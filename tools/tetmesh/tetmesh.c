@@ -137,14 +137,22 @@ done:
 static enum pm_status import_case(const struct tetmesh_opts *o, struct pm_case *c,
                                   struct pm_err *err)
 {
-    char text[256], kappa[64] = "";
+    enum pm_status status;
+    char text[1024], material[960];
+    struct pm_material m = o->material;
     if (o->case_file != NULL)
         return pm_case_load(o->case_file, c, err);
-    if (o->kappa > 0)
-        snprintf(kappa, sizeof kappa, "kappa = %.17g\n", o->kappa);
-    snprintf(text, sizeof text, "[case]\nname = imported\n[material]\nlaw = %.32s\nmu = %.17g\n%s",
-             o->law != NULL ? o->law : "neo-hookean", o->mu, kappa);
-    return pm_case_parse(text, "--law, --mu, --kappa", c, err);
+    if (o->mu > 0) {
+        m.law = "neo-hookean";
+        m.n = 1;
+        m.c[0] = o->mu;
+    }
+    PM_TRY(pm_material_text(&m, material, sizeof material, err));
+    snprintf(text, sizeof text, "[case]\nname = imported\n[material]\n%s", material);
+    PM_TRY(pm_case_parse(text, m.preset != NULL ? "--material" : "--law, --parameters", c, err));
+    pm_case_warn(c, "--parameters");
+done:
+    return status;
 }
 
 static enum pm_status import(const struct tetmesh_opts *o, struct pm_mesh *m, struct pm_err *err)
@@ -179,6 +187,8 @@ done:
 enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_common *common,
                              struct pm_err *err)
 {
+    const int materials = (o->case_file != NULL) + (o->material.preset != NULL) +
+                          (o->material.law != NULL || o->material.n > 0) + (o->mu > 0);
     if ((o->import != NULL) == (common->noperands == 1))
         return pm_fail(err, PM_USAGE, "expected either SURF.h5 or --import FILE.msh");
     if (o->import != NULL &&
@@ -187,13 +197,17 @@ enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_commo
             err, PM_USAGE,
             "--size, --timeout, --previous and --record-failure do not go with --import");
     if (o->import == NULL && (o->promote || o->have_reference || o->case_file != NULL ||
-                              o->law != NULL || o->mu > 0 || o->kappa > 0))
+                              materials > 0 || o->material.kappa > 0))
         return pm_fail(err, PM_USAGE,
-                       "--promote, --reference, --case, --law, --mu and --kappa need --import");
-    if (o->import != NULL && (o->case_file != NULL) == (o->mu > 0))
-        return pm_fail(err, PM_USAGE, "--import needs either --mu or --case");
-    if (o->case_file != NULL && (o->law != NULL || o->kappa > 0))
-        return pm_fail(err, PM_USAGE, "--law and --kappa do not go with --case");
+                       "--promote, --reference, --case, --material, --law, --parameters, --mu and "
+                       "--kappa need --import");
+    if (o->import != NULL && materials != 1)
+        return pm_fail(err, PM_USAGE,
+                       "--import needs one of --case, --material, --law with --parameters, --mu");
+    if ((o->material.law != NULL) != (o->material.n > 0))
+        return pm_fail(err, PM_USAGE, "--law and --parameters need each other");
+    if (o->case_file != NULL && o->material.kappa > 0)
+        return pm_fail(err, PM_USAGE, "--kappa does not go with --case");
     return PM_OK;
 }
 

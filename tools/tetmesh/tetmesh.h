@@ -13,9 +13,9 @@ struct tetmesh_opts {
     /* instead of surfaces: */
     const char *import;    /* gmsh file, or NULL */
     int promote;           /* raise 4-node tetrahedra to 10 nodes */
-    const char *case_file; /* case of an imported mesh, or NULL: a material */
-    const char *law;       /* of that material, NULL: neo-hookean */
-    double mu, kappa;      /* [MPa], 0: not given */
+    const char *case_file; /* case of an imported mesh, or NULL: */
+    struct pm_material material;
+    double mu; /* neo-Hookean shear modulus instead of law or preset [MPa], 0: not given */
     int have_reference;
     double reference[3]; /* [mm] */
 };
