@@ -132,18 +132,17 @@ done:
 static inline enum pm_status sample_state(struct pm_state *s, struct pm_err *err)
 {
     enum pm_status status;
-    *s = (struct pm_state){
-        .element = "tet10",
-        .load = 1,
-        .energy = 2.5,
-        .residual = 1e-9,
-        .min_det_F = 0.9,
-        .load_steps = 3,
-        .newton_steps = 9,
-        .factorisations = 11,
-        .backoffs = 1,
-        .stable = 1,
-        .contact = {.intersections = 2, .gap_reference = 1.5, .at = {1, 2, 3}, .surface = {1, 2}}};
+    *s = (struct pm_state){.element = "tet10",
+                           .load = 1,
+                           .energy = 2.5,
+                           .residual = 1e-9,
+                           .min_det_F = 0.9,
+                           .load_steps = 3,
+                           .newton_steps = 9,
+                           .factorisations = 11,
+                           .backoffs = 1,
+                           .stable = 1,
+                           .contact = {.intersections = 2, .at = {1, 2, 3}, .surface = {1, 2}}};
     PM_TRY(sample_mesh(&s->mesh, err));
     PM_TRY(sample_numbers(&s->pressure, 2, err));
     PM_TRY(sample_numbers(&s->u, 30, err));

@@ -79,8 +79,7 @@ static const struct pm_item table[] = {
     {"state", "/solve/stable", I64, "", "1", "1: tangent positive definite at the solution", 1},
     {"state", "/solve/warm", I64, "", "1", "1: started from a guess", 1},
     {"state", "/contact/intersections", I64, "", "1", "pairs of boundary faces that pierce each other in the deformed body, or a symmetry plane", 1},
-    {"state", "/contact/gap", D, "", "mm", "least distance of boundaries that face each other through air, 0 where they pierce, -1 for none", 1},
-    {"state", "/contact/gap_reference", D, "", "mm", "the same of the undeformed body", 1},
+    {"state", "/contact/gap", D, "", "mm", "least distance of boundaries that face each other through air, 0 where they pierce, -1 where beyond 1/20 of the body", 1},
     {"state", "/contact/at", D, "3", "mm", "where, in the deformed body", 1},
     {"state", "/contact/surface", I32, "2", "1", "the two boundaries there, as in /mesh/tri_tag", 1},
 
@@ -102,7 +101,7 @@ static const struct pm_item table[] = {
     {"work", "/point/dw_dU", D, "ng 6", "1", "derivative of the contribution", 1},
     {"work", "/point/dw_dJ", D, "ng 6 nc", "1", "derivative of the contribution", 1},
     {"work", "/point/intersections", I64, "ng", "1", "pairs of boundary faces that pierce each other", 1},
-    {"work", "/point/gap", D, "ng", "mm", "least distance across air, 0 where faces pierce, -1 for none", 1},
+    {"work", "/point/gap", D, "ng", "mm", "least distance across air, 0 where faces pierce, -1 where wide", 1},
 
     {"sens", "/gradient/phi", D, "N 3", "1", "derivative of the contribution by the control points", 1},
     {"sens", "/gradient/identity_translation", D, "", "1", "relative defect of the nodal gradient", 1},

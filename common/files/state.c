@@ -26,7 +26,6 @@ static const struct scalar scalars[] = {
     {"/solve/warm", AT(warm), 0},
     {"/contact/intersections", AT(contact.intersections), 0},
     {"/contact/gap", AT(contact.gap), 1},
-    {"/contact/gap_reference", AT(contact.gap_reference), 1},
 };
 
 enum { NSCALARS = sizeof scalars / sizeof scalars[0] };

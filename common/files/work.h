@@ -26,7 +26,7 @@ struct pm_work {
     double *dw_dU;          /* (ng x 6) */
     double *dw_dJ;          /* (ng x 6 x nc) */
     int64_t *intersections; /* of the deformed boundary with itself (ng) */
-    double *gap;            /* least distance across air, -1 for none (ng) [mm] */
+    double *gap;            /* least distance across air, -1: wide (ng) [mm] */
 };
 
 enum pm_status pm_work_load(const char *path, int allow_failure, struct pm_work *w,

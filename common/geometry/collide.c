@@ -1,6 +1,7 @@
 #include "common/geometry/collide.h"
 
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "common/base/memory.h"
@@ -15,14 +16,14 @@ static void box_of(const double *x, const int32_t *v, double box[6])
 }
 
 enum pm_status pm_collide_boxes(const double *x, ptrdiff_t nt, const int32_t *tri,
-                                struct pm_boxes **boxes, struct pm_err *err)
+                                const double *normal, struct pm_boxes **boxes, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     double *box = NULL;
     PM_TRY(PM_NEW(box, 6 * nt, err));
     for (ptrdiff_t t = 0; t < nt; t++)
         box_of(x, tri + 3 * t, box + 6 * t);
-    PM_TRY(pm_boxes_new(nt, box, boxes, err));
+    PM_TRY(pm_boxes_new(nt, box, normal, boxes, err));
 done:
     pm_free(box);
     return status;
@@ -82,52 +83,65 @@ static int edges_pierce(const double *x, const int32_t *v, const int32_t *w, dou
     return 0;
 }
 
-static int meet(const double *x, const int32_t *v, const int32_t *w, double at[3])
-{
-    const int shared = contains(w, v[0]) + contains(w, v[1]) + contains(w, v[2]);
-    return shared < 2 && (edges_pierce(x, v, w, at) || edges_pierce(x, w, v, at));
-}
+struct piercing {
+    const double *x;
+    const int32_t *tri;
+    ptrdiff_t parts, n, capacity;
+    int32_t *pair; /* of faces, the lower one first (n x 2) */
+    struct pm_contact *first;
+    enum pm_status status;
+    struct pm_err *err;
+};
 
-/* Counts the faces that face f meets and that are not before it; seen[g] = f + 1 marks the counted.
- */
-static void pierce_face(const struct pm_boxes *boxes, const double *x, const int32_t *tri,
-                        ptrdiff_t parts, ptrdiff_t f, int32_t *id, int32_t *seen,
-                        struct pm_contact *c)
+static enum pm_status push(struct piercing *p, int32_t f, int32_t g, struct pm_err *err)
 {
-    for (ptrdiff_t t = parts * f; t < parts * (f + 1); t++) {
-        double box[6], at[3];
-        box_of(x, tri + 3 * t, box);
-        const ptrdiff_t n = pm_boxes_meet(boxes, box, id);
-        for (ptrdiff_t k = 0; k < n; k++) {
-            const ptrdiff_t g = id[k] / parts;
-            if (id[k] <= t || g < f || seen[g] == f + 1 ||
-                !meet(x, tri + 3 * t, tri + 3 * id[k], at))
-                continue;
-            seen[g] = (int32_t)f + 1;
-            if (c->pairs++ == 0) {
-                c->a = t;
-                c->b = id[k];
-                memcpy(c->at, at, sizeof c->at);
-            }
-        }
+    if (p->n == p->capacity) {
+        PM_GROW(p->pair, 2 * (2 * p->capacity + 64), err);
+        p->capacity = 2 * p->capacity + 64;
     }
+    p->pair[2 * p->n] = f;
+    p->pair[2 * p->n++ + 1] = g;
+    return PM_OK;
 }
 
-enum pm_status pm_collide_faces(const struct pm_boxes *boxes, const double *x, ptrdiff_t nt,
-                                const int32_t *tri, ptrdiff_t parts, struct pm_contact *c,
-                                struct pm_err *err)
+static double pierce_pair(void *data, int32_t a, int32_t b, double best)
 {
-    enum pm_status status = PM_OK;
-    int32_t *id = NULL, *seen = NULL;
+    struct piercing *p = data;
+    const int32_t i = a < b ? a : b, j = a < b ? b : a;
+    const int32_t *v = p->tri + 3 * (ptrdiff_t)i, *w = p->tri + 3 * (ptrdiff_t)j;
+    const int shared = contains(w, v[0]) + contains(w, v[1]) + contains(w, v[2]);
+    double at[3];
+    if (shared > 1 || !(edges_pierce(p->x, v, w, at) || edges_pierce(p->x, w, v, at)))
+        return best;
+    if (p->first->a < 0 || i < p->first->a || (i == p->first->a && j < p->first->b)) {
+        p->first->a = i;
+        p->first->b = j;
+        memcpy(p->first->at, at, sizeof at);
+    }
+    if (p->status == PM_OK)
+        p->status = push(p, (int32_t)(i / p->parts), (int32_t)(j / p->parts), p->err);
+    return best;
+}
+
+static int by_faces(const void *a, const void *b)
+{
+    const int32_t *p = a, *q = b;
+    const int k = p[0] == q[0];
+    return (p[k] > q[k]) - (p[k] < q[k]);
+}
+
+enum pm_status pm_collide_faces(const struct pm_boxes *boxes, const double *x, const int32_t *tri,
+                                ptrdiff_t parts, struct pm_contact *c, struct pm_err *err)
+{
+    struct piercing p = {.x = x, .tri = tri, .parts = parts, .first = c, .err = err};
     *c = (struct pm_contact){.a = -1, .b = -1};
-    PM_TRY(PM_NEW(id, nt, err));
-    PM_TRY(PM_NEW(seen, nt / parts, err));
-    for (ptrdiff_t f = 0; f < nt / parts; f++)
-        pierce_face(boxes, x, tri, parts, f, id, seen, c);
-done:
-    pm_free(id);
-    pm_free(seen);
-    return status;
+    pm_boxes_pairs(boxes, -1, 0, pierce_pair, &p);
+    if (p.n > 0)
+        qsort(p.pair, (size_t)p.n, 2 * sizeof *p.pair, by_faces);
+    for (ptrdiff_t k = 0; k < p.n; k++)
+        c->pairs += k == 0 || by_faces(p.pair + 2 * k - 2, p.pair + 2 * k) != 0;
+    pm_free(p.pair);
+    return p.status;
 }
 
 enum pm_status pm_collide_pierce(const double *x, ptrdiff_t nt, const int32_t *tri,
@@ -135,8 +149,8 @@ enum pm_status pm_collide_pierce(const double *x, ptrdiff_t nt, const int32_t *t
 {
     enum pm_status status = PM_OK;
     struct pm_boxes *boxes = NULL;
-    PM_TRY(pm_collide_boxes(x, nt, tri, &boxes, err));
-    PM_TRY(pm_collide_faces(boxes, x, nt, tri, 1, c, err));
+    PM_TRY(pm_collide_boxes(x, nt, tri, NULL, &boxes, err));
+    PM_TRY(pm_collide_faces(boxes, x, tri, 1, c, err));
 done:
     pm_boxes_free(boxes);
     return status;
@@ -205,7 +219,7 @@ enum pm_status pm_collide_near(ptrdiff_t nn, const double *x, const double *limi
     int32_t *id = NULL;
     double best = 1;
     *c = (struct pm_contact){.a = -1, .b = -1};
-    PM_TRY(pm_collide_boxes(x, nt, tri, &boxes, err));
+    PM_TRY(pm_collide_boxes(x, nt, tri, NULL, &boxes, err));
     PM_TRY(PM_NEW(id, nt, err));
     for (ptrdiff_t a = 0; a < nn; a++) {
         const double *p = x + 3 * a, r = best * limit[a];

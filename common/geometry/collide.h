@@ -15,16 +15,15 @@ struct pm_contact {
     ptrdiff_t pairs; /* how many there are (pm_collide_faces) */
 };
 
-/* The tree of the boxes of the triangles. */
+/* The tree of the boxes of the triangles with their normals (nt x 3), or NULL. */
 enum pm_status pm_collide_boxes(const double *x, ptrdiff_t nt, const int32_t *tri,
-                                struct pm_boxes **boxes, struct pm_err *err);
+                                const double *normal, struct pm_boxes **boxes, struct pm_err *err);
 /* Triangles parts * f .. parts * (f + 1) - 1 make up face f: counts the pairs of faces (a face with
  * itself too) of which an edge of a triangle pierces a triangle of the other, and gives the first
- * pair of triangles. Touching does not count; triangles with a common edge are not tested, with a
- * common node only their other edges. About nt log nt. */
-enum pm_status pm_collide_faces(const struct pm_boxes *boxes, const double *x, ptrdiff_t nt,
-                                const int32_t *tri, ptrdiff_t parts, struct pm_contact *c,
-                                struct pm_err *err);
+ * pair of triangles, by number. Touching does not count; triangles with a common edge are not
+ * tested, with a common node only their other edges. About nt log nt. */
+enum pm_status pm_collide_faces(const struct pm_boxes *boxes, const double *x, const int32_t *tri,
+                                ptrdiff_t parts, struct pm_contact *c, struct pm_err *err);
 /* The same, each triangle a face. */
 enum pm_status pm_collide_pierce(const double *x, ptrdiff_t nt, const int32_t *tri,
                                  struct pm_contact *c, struct pm_err *err);

@@ -10,9 +10,8 @@
 
 /* Of the cones in which two points face each other. */
 static const double COSINE = 0.8;
-/* Of the angle to the mean normal beyond which a node at an edge looks along each triangle's. */
-static const double SMOOTH = 0.9;
-
+/* Largest gap, in parts of the body's diagonal. */
+static const double WIDE = 0.05;
 static const int PART[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
 
 struct plane {
@@ -27,9 +26,7 @@ struct skin {
     ptrdiff_t nt, parts; /* triangles, of one face */
     int32_t *tri;        /* (nt x 3) */
     int32_t *tag;        /* of a triangle                      (nt) */
-    int32_t *node_tag;   /* the largest of a node's faces, PM_FACE_SYM_Z: not on the skin (nn) */
     double *y;           /* positions                          (nn x 3) [mm] */
-    double *normal;      /* of the nodes, unit                 (nn x 3) */
     double *facet;       /* of the triangles, unit             (nt x 3) */
     struct pm_boxes *boxes;
     struct plane plane[3];
@@ -40,9 +37,7 @@ static void skin_release(struct skin *s)
 {
     pm_free(s->tri);
     pm_free(s->tag);
-    pm_free(s->node_tag);
     pm_free(s->y);
-    pm_free(s->normal);
     pm_free(s->facet);
     pm_boxes_free(s->boxes);
 }
@@ -69,20 +64,13 @@ static enum pm_status skin_new(const struct pm_mesh *m, struct skin *s, struct p
     PM_TRY(PM_NEW(s->tri, 3 * s->parts * m->nf, err));
     PM_TRY(PM_NEW(s->tag, s->parts * m->nf, err));
     PM_TRY(PM_NEW(s->facet, 3 * s->parts * m->nf, err));
-    PM_TRY(PM_NEW(s->node_tag, m->nn, err));
     PM_TRY(PM_NEW(s->y, 3 * m->nn, err));
-    PM_TRY(PM_NEW(s->normal, 3 * m->nn, err));
-    for (ptrdiff_t a = 0; a < m->nn; a++)
-        s->node_tag[a] = PM_FACE_SYM_Z;
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         const int32_t *node = m->tri + m->npf * f, tag = m->tri_tag[f];
         if (tag <= PM_FACE_SYM_X) {
             add_plane(s, f);
             continue;
         }
-        for (ptrdiff_t k = 0; k < m->npf; k++)
-            if (s->node_tag[node[k]] < tag)
-                s->node_tag[node[k]] = tag;
         for (ptrdiff_t k = 0; k < s->parts; k++, s->nt++) {
             s->tag[s->nt] = tag;
             for (int v = 0; v < 3; v++)
@@ -93,20 +81,11 @@ done:
     return status;
 }
 
-static void scale_to_one(double *v)
-{
-    const double l = sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
-    for (int i = 0; i < 3 && l > 0; i++)
-        v[i] /= l;
-}
-
-/* Positions x + u (u NULL: x), normals, boxes. */
+/* Positions x + u, normals, boxes. */
 static enum pm_status skin_place(struct skin *s, const double *u, struct pm_err *err)
 {
-    const ptrdiff_t nn = s->m->nn;
-    for (ptrdiff_t i = 0; i < 3 * nn; i++)
-        s->y[i] = s->m->x[i] + (u != NULL ? u[i] : 0);
-    memset(s->normal, 0, 3 * (size_t)nn * sizeof *s->normal);
+    for (ptrdiff_t i = 0; i < 3 * s->m->nn; i++)
+        s->y[i] = s->m->x[i] + u[i];
     for (ptrdiff_t t = 0; t < s->nt; t++) {
         const int32_t *v = s->tri + 3 * t;
         const double *a = s->y + 3 * v[0], *b = s->y + 3 * v[1], *c = s->y + 3 * v[2];
@@ -115,85 +94,88 @@ static enum pm_status skin_place(struct skin *s, const double *u, struct pm_err 
             const int j = (i + 1) % 3, k = (i + 2) % 3;
             n[i] = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
         }
-        for (int k = 0; k < 3; k++)
-            for (int i = 0; i < 3; i++)
-                s->normal[3 * v[k] + i] += n[i];
-        scale_to_one(n);
+        const double l = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        for (int i = 0; i < 3 && l > 0; i++)
+            n[i] /= l;
     }
-    for (ptrdiff_t a = 0; a < nn; a++)
-        scale_to_one(s->normal + 3 * a);
-    pm_boxes_free(s->boxes);
-    s->boxes = NULL;
-    return pm_collide_boxes(s->y, s->nt, s->tri, &s->boxes, err);
+    return pm_collide_boxes(s->y, s->nt, s->tri, s->facet, &s->boxes, err);
 }
 
-/* What a node looks for. */
 struct look {
     const struct skin *s;
-    const double *x, *n;
-    int32_t triangle;
+    struct pm_self_contact *c;
 };
 
-static double look_at(void *data, int32_t t, double best)
+/* From the corners of triangle a to triangle b. */
+static double look_across(const struct look *l, int32_t a, int32_t b, double best)
 {
-    struct look *l = data;
-    const int32_t *v = l->s->tri + 3 * (ptrdiff_t)t;
-    const double *n = l->n, *m = l->s->facet + 3 * (ptrdiff_t)t, *y = l->s->y;
-    double q[3], dn = 0, dm = 0;
-    /* outside of both cones whatever the direction */
-    if (n[0] * m[0] + n[1] * m[1] + n[2] * m[2] > 1 - 2 * COSINE * COSINE)
-        return best;
-    const double d = pm_collide_closest(l->x, y + 3 * v[0], y + 3 * v[1], y + 3 * v[2], q);
-    for (int i = 0; i < 3; i++) {
-        dn += (q[i] - l->x[i]) * n[i];
-        dm -= (q[i] - l->x[i]) * m[i];
-    }
-    if (!(d > 0 && d < best && dn >= COSINE * d && dm >= COSINE * d))
-        return best;
-    l->triangle = t;
-    return d;
-}
-
-/* The node faces the plane and its image beyond. */
-static double mirror_gap(const struct plane *p, const double *x, const double *n)
-{
-    const double d = p->side * (x[p->axis] - p->at);
-    return d > 0 && -p->side * n[p->axis] >= COSINE ? 2 * d : HUGE_VAL;
-}
-
-/* What node a sees along n, if nearer than c->gap. */
-static void look_from(const struct skin *s, ptrdiff_t a, const double *n, struct pm_self_contact *c)
-{
-    struct look l = {.s = s, .x = s->y + 3 * a, .n = n, .triangle = -1};
-    double best = pm_boxes_nearest(s->boxes, l.x, n, COSINE, c->gap, look_at, &l);
-    int32_t other = l.triangle >= 0 ? s->tag[l.triangle] : 0;
-    for (int k = 0; k < s->nplanes; k++)
-        if (mirror_gap(&s->plane[k], l.x, n) < best) {
-            best = mirror_gap(&s->plane[k], l.x, n);
-            other = s->plane[k].tag;
+    const struct skin *s = l->s;
+    const int32_t *v = s->tri + 3 * (ptrdiff_t)a, *w = s->tri + 3 * (ptrdiff_t)b;
+    const double *n = s->facet + 3 * (ptrdiff_t)a, *m = s->facet + 3 * (ptrdiff_t)b;
+    for (int k = 0; k < 3; k++) {
+        const double *x = s->y + 3 * v[k];
+        double q[3], dn = 0, dm = 0;
+        const double d =
+            pm_collide_closest(x, s->y + 3 * w[0], s->y + 3 * w[1], s->y + 3 * w[2], q);
+        for (int i = 0; i < 3; i++) {
+            dn += (q[i] - x[i]) * n[i];
+            dm -= (q[i] - x[i]) * m[i];
         }
-    if (best < c->gap) {
-        c->gap = best;
-        memcpy(c->at, l.x, sizeof c->at);
-        c->surface[0] = s->node_tag[a];
-        c->surface[1] = other;
+        if (!(d > 0 && d < best && dn >= COSINE * d && dm >= COSINE * d))
+            continue;
+        best = d;
+        memcpy(l->c->at, x, sizeof l->c->at);
+        l->c->surface[0] = s->tag[a];
+        l->c->surface[1] = s->tag[b];
     }
+    return best;
+}
+
+static double look_both(void *data, int32_t a, int32_t b, double best)
+{
+    return look_across(data, b, a, look_across(data, a, b, best));
+}
+
+/* The plane and the image beyond, which corners face. */
+static double look_at_plane(const struct look *l, const struct plane *p, double best)
+{
+    const struct skin *s = l->s;
+    for (ptrdiff_t t = 0; t < s->nt; t++)
+        for (int k = 0; k < 3 && -p->side * s->facet[3 * t + p->axis] >= COSINE; k++) {
+            const double *x = s->y + 3 * s->tri[3 * t + k];
+            const double d = 2 * p->side * (x[p->axis] - p->at);
+            if (!(d > 0 && d < best))
+                continue;
+            best = d;
+            memcpy(l->c->at, x, sizeof l->c->at);
+            l->c->surface[0] = s->tag[t];
+            l->c->surface[1] = p->tag;
+        }
+    return best;
+}
+
+static double diagonal(const struct pm_mesh *m)
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        double lo = m->x[i], hi = lo;
+        for (ptrdiff_t a = 1; a < m->nn; a++) {
+            lo = m->x[3 * a + i] < lo ? m->x[3 * a + i] : lo;
+            hi = m->x[3 * a + i] > hi ? m->x[3 * a + i] : hi;
+        }
+        sum += (hi - lo) * (hi - lo);
+    }
+    return sqrt(sum);
 }
 
 static void find_gap(const struct skin *s, struct pm_self_contact *c)
 {
-    c->gap = HUGE_VAL;
-    for (ptrdiff_t a = 0; a < s->m->nn; a++)
-        if (s->node_tag[a] != PM_FACE_SYM_Z)
-            look_from(s, a, s->normal + 3 * a, c);
-    for (ptrdiff_t t = 0; t < s->nt; t++)
-        for (int k = 0; k < 3; k++) {
-            const ptrdiff_t a = s->tri[3 * t + k];
-            const double *n = s->normal + 3 * a, *m = s->facet + 3 * t;
-            if (n[0] * m[0] + n[1] * m[1] + n[2] * m[2] < SMOOTH)
-                look_from(s, a, m, c);
-        }
-    c->gap = c->gap < HUGE_VAL ? c->gap : -1;
+    struct look l = {s, c};
+    const double wide = WIDE * diagonal(s->m);
+    double best = pm_boxes_pairs(s->boxes, COSINE, wide, look_both, &l);
+    for (int k = 0; k < s->nplanes; k++)
+        best = look_at_plane(&l, &s->plane[k], best);
+    c->gap = best < wide ? best : -1;
 }
 
 /* A face that reaches through a plane: further than rounding of a node that is held on it. */
@@ -233,13 +215,10 @@ enum pm_status pm_contact_find(const struct pm_mesh *m, const double *u, struct 
     struct skin s;
     struct pm_contact pierced;
 
-    *c = (struct pm_self_contact){.gap = -1};
+    *c = (struct pm_self_contact){.gap = 0};
     PM_TRY(skin_new(m, &s, err));
-    PM_TRY(skin_place(&s, NULL, err));
-    find_gap(&s, c);
-    *c = (struct pm_self_contact){.gap_reference = c->gap};
     PM_TRY(skin_place(&s, u, err));
-    PM_TRY(pm_collide_faces(s.boxes, s.y, s.nt, s.tri, s.parts, &pierced, err));
+    PM_TRY(pm_collide_faces(s.boxes, s.y, s.tri, s.parts, &pierced, err));
     if (pierced.pairs > 0) {
         c->intersections = pierced.pairs;
         memcpy(c->at, pierced.at, sizeof c->at);
@@ -274,7 +253,6 @@ void pm_contact_tell(const struct pm_self_contact *c)
                 "%s and %s at (%.4g, %.4g, %.4g) mm",
                 (long long)c->intersections, first, second, c->at[0], c->at[1], c->at[2]);
     else if (c->gap >= 0)
-        pm_log(1,
-               "smallest gap %.3g mm (undeformed %.3g mm), of %s and %s at (%.4g, %.4g, %.4g) mm",
-               c->gap, c->gap_reference, first, second, c->at[0], c->at[1], c->at[2]);
+        pm_log(1, "smallest gap %.3g mm, of %s and %s at (%.4g, %.4g, %.4g) mm", c->gap, first,
+               second, c->at[0], c->at[1], c->at[2]);
 }

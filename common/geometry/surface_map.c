@@ -39,7 +39,7 @@ static enum pm_status new_supports(struct pm_map *m, struct pm_err *err)
             box[6 * i + j] = m->Phi[3 * i + j] - m->d0[i];
             box[6 * i + 3 + j] = m->Phi[3 * i + j] + m->d0[i];
         }
-    PM_TRY(pm_boxes_new(m->n, box, &m->supports, err));
+    PM_TRY(pm_boxes_new(m->n, box, NULL, &m->supports, err));
 done:
     pm_free(box);
     return status;
