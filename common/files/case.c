@@ -364,6 +364,53 @@ done:
     return status;
 }
 
+/* Appends text to `out` but its sections [material]. */
+static void copy_others(const char *text, char *out)
+{
+    static const char material[] = "[material]";
+    int skip = 0;
+    for (size_t n; *text != '\0'; text += n) {
+        n = strcspn(text, "\n");
+        n += text[n] == '\n';
+        const char *word = text + strspn(text, " \t");
+        if (*word == '[')
+            skip = strncmp(word, material, sizeof material - 1) == 0;
+        if (!skip) {
+            memcpy(out, text, n);
+            out += n;
+        }
+    }
+    *out = '\0';
+}
+
+enum pm_status pm_case_set_material(struct pm_case *c, const struct pm_material *m,
+                                    struct pm_err *err)
+{
+    enum pm_status status;
+    char *text = NULL, lines[960];
+    struct pm_case changed = {.text = NULL};
+    struct pm_material wanted = *m;
+    if (m->law == NULL && m->preset == NULL) {
+        wanted.law = c->law;
+        wanted.n = c->nlaw_parameter;
+        memcpy(wanted.c, c->law_parameter, sizeof wanted.c);
+    }
+    PM_TRY(pm_material_text(&wanted, lines, sizeof lines, err));
+    const size_t size = strlen(c->text) + sizeof lines + 16;
+    PM_TRY(PM_NEW(text, (ptrdiff_t)size, err));
+    copy_others(c->text, text);
+    const size_t used = strlen(text);
+    snprintf(text + used, size - used, "%s[material]\n%s",
+             used > 0 && text[used - 1] != '\n' ? "\n" : "", lines);
+    PM_TRY(pm_case_parse(text, "the case with another material", &changed, err));
+    pm_case_warn(&changed, "--parameters");
+    pm_case_release(c);
+    *c = changed;
+done:
+    pm_free(text);
+    return status;
+}
+
 void pm_case_release(struct pm_case *c)
 {
     pm_free(c->text);

@@ -83,6 +83,11 @@ enum pm_status pm_case_load(const char *path, struct pm_case *c, struct pm_err *
 /* Warns of what is allowed but seldom meant: an Ogden term with mu alpha < 0. */
 void pm_case_warn(const struct pm_case *c, const char *name);
 enum pm_status pm_case_copy(const struct pm_case *from, struct pm_case *to, struct pm_err *err);
+/* Another material: its lines take the place of the [material] section in c->text, and c is what
+ * this text says. Where m names none, the law stays and its kappa is taken. c is kept on failure.
+ */
+enum pm_status pm_case_set_material(struct pm_case *c, const struct pm_material *m,
+                                    struct pm_err *err);
 void pm_case_release(struct pm_case *c);
 
 #endif

@@ -3,6 +3,8 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/base/tool.h"
+
 static const struct pm_material_law laws[] = {
     {"neo-hookean", 1, 1, 1, {"mu"}},
     {"mooney-rivlin", 2, 2, 2, {"c10", "c01"}},
@@ -118,6 +120,39 @@ double pm_material_shear(const struct pm_material_law *law, ptrdiff_t n, const d
 int pm_material_takes(const struct pm_material_law *law, ptrdiff_t n)
 {
     return n >= law->least && n <= law->most && (law->step == 0 || n % law->step == 0);
+}
+
+enum pm_status pm_material_option(struct pm_material *m, const char *name, const char *value,
+                                  int *taken, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    int n = 0;
+    *taken = 1;
+    if (strcmp(name, "material") == 0) {
+        m->preset = value;
+    } else if (strcmp(name, "law") == 0) {
+        m->law = value;
+    } else if (strcmp(name, "parameters") == 0) {
+        status = pm_parse_doubles(name, value, PM_MAX_LAW_PARAMETERS, m->c, &n, err);
+        m->n = n;
+    } else if (strcmp(name, "kappa") == 0) {
+        status = pm_parse_double(name, value, &m->kappa, err);
+        if (status == PM_OK && !(m->kappa > 0))
+            status =
+                pm_fail(err, PM_USAGE, "option --kappa: found %s, expected a number > 0", value);
+    } else {
+        *taken = 0;
+    }
+    return status;
+}
+
+enum pm_status pm_material_check(const struct pm_material *m, struct pm_err *err)
+{
+    if ((m->law != NULL) != (m->n > 0))
+        return pm_fail(err, PM_USAGE, "--law and --parameters need each other");
+    if (m->law != NULL && m->preset != NULL)
+        return pm_fail(err, PM_USAGE, "--law does not go with --material");
+    return PM_OK;
 }
 
 /* How many parameters this law takes. */

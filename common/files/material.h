@@ -23,8 +23,9 @@ struct pm_material_preset {
     double c[PM_MAX_LAW_PARAMETERS]; /* parameters of the law (n) */
 };
 
+/* As --law with --parameters, or --material, and --kappa say it. */
 struct pm_material {
-    const char *law, *preset; /* NULL: not given */
+    const char *law, *preset; /* NULL: not given; borrowed */
     ptrdiff_t n;
     double c[PM_MAX_LAW_PARAMETERS]; /* (n) */
     double kappa;                    /* bulk modulus [MPa], 0: not given */
@@ -46,6 +47,11 @@ double pm_material_shear(const struct pm_material_law *law, ptrdiff_t n, const d
 
 /* Whether the law takes n parameters. */
 int pm_material_takes(const struct pm_material_law *law, ptrdiff_t n);
+/* Takes option material, law, parameters or kappa: *taken tells whether it was one of them. */
+enum pm_status pm_material_option(struct pm_material *m, const char *name, const char *value,
+                                  int *taken, struct pm_err *err);
+/* Refuses (PM_USAGE) a law without parameters, parameters without a law, a law beside a preset. */
+enum pm_status pm_material_check(const struct pm_material *m, struct pm_err *err);
 /* "law = ..", "key = value" lines that say m, digits kept. PM_USAGE for an unknown law or preset
  * and for a wrong number of parameters, PM_SYSTEM if size is not enough. */
 enum pm_status pm_material_text(const struct pm_material *m, char *out, size_t size,

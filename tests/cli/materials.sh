@@ -30,6 +30,23 @@ check "the same state" h5diff -d 1e-13 "$work/ogden-state.h5" "$work/neo-state.h
 expect 0 "an Ogden term of the wrong sign" import --law ogden --parameters 0.4,2,-0.01,5 -o "$work/ogden.h5"
 check "is warned of" grep -q "mu2 alpha2 = -0.05 MPa < 0" "$work/err"
 
+# another material than that of the mesh
+fesolve() {
+    "$BIN/fesolve" "$work/neo.h5" --pressure 0.02 "$@"
+}
+expect 0 "fesolve with another law" fesolve --law ogden --parameters 0.4,2 -o "$work/other.h5"
+check "stands in the case of the state" stated "$work/other.h5" "alpha1 = 2"
+check "which is that of a mesh of this material" \
+    h5diff -d 1e-13 "$work/other.h5" "$work/ogden-state.h5" /node/displacement
+expect 0 "fesolve with a preset" fesolve --material dragon-skin-10 -o "$work/other.h5"
+check "stands in the case of the state" stated "$work/other.h5" "preset = dragon-skin-10"
+expect 0 "fesolve with another kappa" fesolve --kappa 12 -o "$work/other.h5"
+check "keeps the law" stated "$work/other.h5" "law = neo-hookean"
+check "and has kappa" stated "$work/other.h5" "kappa = 12"
+refused 2 "fesolve: unknown preset" "unknown material 'butter'" fesolve --material butter -o "$out/x.h5"
+refused 2 "fesolve: parameters without a law" "need each other" fesolve --parameters 1 -o "$out/x.h5"
+refused 2 "fesolve: kappa 0" "option --kappa: found 0, expected a number > 0" fesolve --kappa 0 -o "$out/x.h5"
+
 both() {
     refused 2 "$1" "needs one of --case, --material, --law with --parameters, --mu" import "${@:2}" -o "$out/x.h5"
 }

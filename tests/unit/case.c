@@ -110,6 +110,21 @@ static void test_materials(void)
            c.nlaw_parameter == 3 && c.law_parameter[1] == 0 && c.law_parameter[2] == 0.01,
        "Yeoh: a constant left out is 0 %s", err.text);
     pm_case_release(&c);
+    const char *text = "[case]\nname = m\n[material] ; rubber\nmu = 2\n[workspace]\nmeasure = 2T";
+    const struct pm_material yeoh = {.law = "yeoh", .n = 2, .c = {0.1, 0.2}}, stiff = {.kappa = 77};
+    ok(pm_case_parse(text, "t", &c, &err) == PM_OK &&
+           pm_case_set_material(&c, &yeoh, &err) == PM_OK && c.mu == 0.2 && c.kappa == 20 &&
+           strcmp(c.text, "[case]\nname = m\n[workspace]\nmeasure = 2T\n[material]\nlaw = yeoh\n"
+                          "c1 = 0.10000000000000001\nc2 = 0.20000000000000001\n") == 0,
+       "another material takes the place of the section %s", err.text);
+    ok(pm_case_set_material(&c, &stiff, &err) == PM_OK && c.mu == 0.2 && c.kappa == 77 &&
+           c.law_parameter[1] == 0.2 && c.ndofs == 2,
+       "another kappa keeps the law %s", err.text);
+    ok(pm_case_set_material(&c, &(struct pm_material){.preset = "butter"}, &err) == PM_USAGE &&
+           c.kappa == 77,
+       "a wrong one changes nothing");
+    err = (struct pm_err){.status = PM_OK};
+    pm_case_release(&c);
     ok(pm_case_parse(MATERIAL "preset = elastosil-m4601\nkappa = 30\n", "t", &c, &err) == PM_OK &&
            strcmp(c.law, "yeoh") == 0 && c.law_parameter[1] == 0.02 && c.kappa == 30,
        "a preset with its own kappa %s", err.text);

@@ -174,12 +174,15 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
     struct pm_h5 *out = NULL;
     if (o->have_load == (o->npressure > 0))
         return pm_fail(err, PM_USAGE, "expected exactly one of --load and --pressure");
+    PM_TRY(pm_material_check(&o->material, err));
     PM_TRY(pm_mesh_load(common->operands[0], o->record_failure, &s.mesh, err));
     if (s.mesh.failure[0] != '\0') {
         snprintf(s.failure, sizeof s.failure, "%s", s.mesh.failure);
         s.form = o->have_form ? o->form : s.mesh.pcase.form;
         s.load = o->have_load ? o->load : -1;
     } else {
+        if (o->material.law != NULL || o->material.preset != NULL || o->material.kappa > 0)
+            PM_TRY(pm_case_set_material(&s.mesh.pcase, &o->material, err));
         PM_TRY(choose_load(o, &s, err));
         status = solve(o, &s, err);
         if (status == PM_NUMERIC && o->record_failure) {

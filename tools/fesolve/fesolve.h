@@ -15,6 +15,7 @@ struct fesolve_opts {
     const char *guess[FESOLVE_MOST_GUESSES + 1]; /* ends with NULL */
     int nguess;
     const char *element;
+    struct pm_material material; /* instead of that of the mesh, where it says anything */
     double tolerance;
     int record_failure;
 };

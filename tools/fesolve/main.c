@@ -10,6 +10,10 @@ static const struct pm_option options[] = {
      "start from this state of the same connectivity; repeated: the nearest in pressure"},
     {"element", 'e', "NAME",
      "tet10-blend (default; of a linear mesh tet4), tet10, tet10-mean, tet4 or tet15"},
+    {"material", 0, "NAME", "another material than the mesh says: a preset of pneumorph-case(5)"},
+    {"law", 0, "NAME", "another material: its law"},
+    {"parameters", 0, "C1,C2,..", "parameters of --law, in the order of pneumorph-case(5)"},
+    {"kappa", 0, "MPA", "another bulk modulus (default with another material: 100 mu)"},
     {"tolerance", 't', "T", "residual / pressure load at the solution (default 1e-8)"},
     {"record-failure", 'r', NULL,
      "where there is no stable equilibrium, write a state that says why"},
@@ -18,7 +22,10 @@ static const struct pm_option options[] = {
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
 {
     struct fesolve_opts *o = data;
-    enum pm_status status = PM_OK;
+    int taken;
+    enum pm_status status = pm_material_option(&o->material, name, value, &taken, err);
+    if (taken)
+        return status;
     if (strcmp(name, "load") == 0) {
         o->have_load = 1;
         status = pm_parse_long(name, value, &o->load, err);

@@ -38,16 +38,6 @@ static enum pm_status reference(const char *name, const char *value, struct tetm
     return status;
 }
 
-static enum pm_status parameters(const char *name, const char *value, struct pm_material *m,
-                                 struct pm_err *err)
-{
-    int n = 0;
-    const enum pm_status status =
-        pm_parse_doubles(name, value, PM_MAX_LAW_PARAMETERS, m->c, &n, err);
-    m->n = n;
-    return status;
-}
-
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
 {
     struct tetmesh_opts *o = data;
@@ -56,17 +46,11 @@ static enum pm_status option(void *data, const char *name, const char *value, st
         double *number;
         const char **text;
         int *flag;
-    } simple[] = {{"size", &o->size, NULL, NULL},
-                  {"timeout", &o->timeout, NULL, NULL},
-                  {"mu", &o->mu, NULL, NULL},
-                  {"kappa", &o->material.kappa, NULL, NULL},
-                  {"previous", NULL, &o->previous, NULL},
-                  {"import", NULL, &o->import, NULL},
-                  {"case", NULL, &o->case_file, NULL},
-                  {"law", NULL, &o->material.law, NULL},
-                  {"material", NULL, &o->material.preset, NULL},
-                  {"promote", NULL, NULL, &o->promote},
-                  {"record-failure", NULL, NULL, &o->record_failure}};
+    } simple[] = {
+        {"size", &o->size, NULL, NULL},       {"timeout", &o->timeout, NULL, NULL},
+        {"mu", &o->mu, NULL, NULL},           {"previous", NULL, &o->previous, NULL},
+        {"import", NULL, &o->import, NULL},   {"case", NULL, &o->case_file, NULL},
+        {"promote", NULL, NULL, &o->promote}, {"record-failure", NULL, NULL, &o->record_failure}};
     for (size_t k = 0; k < sizeof simple / sizeof simple[0]; k++) {
         if (strcmp(name, simple[k].name) != 0)
             continue;
@@ -78,8 +62,9 @@ static enum pm_status option(void *data, const char *name, const char *value, st
             *simple[k].flag = 1;
         return PM_OK;
     }
-    return strcmp(name, "parameters") == 0 ? parameters(name, value, &o->material, err)
-                                           : reference(name, value, o, err);
+    int taken;
+    const enum pm_status status = pm_material_option(&o->material, name, value, &taken, err);
+    return taken ? status : reference(name, value, o, err);
 }
 
 static enum pm_status run(void *data, const struct pm_common *common, struct pm_err *err)

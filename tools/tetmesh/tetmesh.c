@@ -204,11 +204,9 @@ enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_commo
     if (o->import != NULL && materials != 1)
         return pm_fail(err, PM_USAGE,
                        "--import needs one of --case, --material, --law with --parameters, --mu");
-    if ((o->material.law != NULL) != (o->material.n > 0))
-        return pm_fail(err, PM_USAGE, "--law and --parameters need each other");
     if (o->case_file != NULL && o->material.kappa > 0)
         return pm_fail(err, PM_USAGE, "--kappa does not go with --case");
-    return PM_OK;
+    return pm_material_check(&o->material, err);
 }
 
 enum pm_status tetmesh_run(const struct tetmesh_opts *o, const struct pm_common *common,
