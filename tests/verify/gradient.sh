@@ -7,11 +7,11 @@
 check "surfaces" "$BIN/surfgen" tests/data/tiny.ini -o "$work/surf.h5"
 check "mesh" "$BIN/tetmesh" "$work/surf.h5" -o "$work/mesh.h5"
 
-# states ELEMENT FORM LAST: all points of a form.
+# states ELEMENT FORM LAST [OPTIONS]: all points of a form.
 states() {
     local g
     for ((g = 0; g <= $3; g++)); do
-        "$BIN/fesolve" --element "$1" --form "$2" --load "$g" "$work/mesh.h5" -o "$work/$1-$2-$g.h5" || return
+        "$BIN/fesolve" --element "$1" --form "$2" --load "$g" "${@:4}" "$work/mesh.h5" -o "$work/$1-$2-$g.h5" || return
     done
     "$BIN/wsint" --form "$2" "$work/$1-$2"-?.h5 -o "$work/$1-$2-work.h5"
 }
@@ -29,4 +29,6 @@ check "blended dilatation, boundary form" gradient tet10-blend boundary 2
 check "blended dilatation, volume form" gradient tet10-blend volume 1
 check "plain tet10" gradient tet10 boundary 3
 check "mean dilatation" gradient tet10-mean boundary 1
+check "states, law of Ogden" states tet10-blend boundary 3 --law ogden --parameters 0.4,1.3,0.01,5,-0.02,-2
+check "law of Ogden" gradient tet10-blend boundary 2
 finish
