@@ -42,7 +42,8 @@ enum pm_status pm_measure_check(const struct pm_case *c, enum pm_form form, stru
     int translations = 0, rotations = 0, ascending = 1;
 
     if (k == NULL)
-        return pm_fail(err, PM_INPUT, "unknown measure '%s', expected %s", c->measure, NAMES);
+        return pm_fail(err, PM_INPUT, "%s measure '%s' in the case, expected %s",
+                       c->measure[0] == '\0' ? "no" : "unknown", c->measure, NAMES);
     for (int i = 0; i < c->ndofs; i++) {
         translations += c->dofs[i] < 3;
         rotations += c->dofs[i] >= 3;

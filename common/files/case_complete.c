@@ -298,7 +298,7 @@ static enum pm_status complete_workspace(struct pm_case_raw *raw, const char *na
         return pm_fail(err, PM_INPUT, "cannot use '%s': points is %ld, expected at most 16", name,
                        c->points);
     if (c->measure[0] == '\0')
-        return c->nchambers > 0 ? missing(name, "workspace", "measure", err) : PM_OK;
+        return PM_OK; /* no workspace: single equilibria only */
     size_t m = 0, count = sizeof measures / sizeof measures[0];
     while (m < count && strcmp(measures[m].name, c->measure) != 0)
         m++;
