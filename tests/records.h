@@ -11,6 +11,7 @@
 #include "common/files/state.h"
 #include "common/files/step.h"
 #include "common/files/surfaces.h"
+#include "common/files/sweep.h"
 #include "common/files/work.h"
 
 static const char sample_case_text[] =
@@ -155,6 +156,30 @@ done:
     return status;
 }
 
+static inline enum pm_status sample_sweep(struct pm_sweep *s, struct pm_err *err)
+{
+    enum pm_status status;
+    *s = (struct pm_sweep){.element = "tet10"};
+    PM_TRY(sample_mesh(&s->mesh, err));
+    PM_TRY(pm_sweep_allocate(s, 3, err));
+    PM_TRY(PM_NEW(s->reason, 16, err));
+    memcpy(s->reason, "\n\nbuckled", 10);
+    for (ptrdiff_t i = 0; i < 3; i++) {
+        s->reached[i] = i < 2;
+        s->factorisations[i] = 3 - i;
+        s->intersections[i] = i == 1;
+        s->energy[i] = s->residual[i] = s->min_det_F[i] = s->gap[i] = sample_number(i);
+    }
+    for (ptrdiff_t i = 0; i < 6; i++)
+        s->pressure[i] = s->volume[i] = sample_number(i);
+    for (ptrdiff_t i = 0; i < 36; i++)
+        s->J[i] = s->U[i / 2] = sample_number(i);
+    for (ptrdiff_t i = 0; i < 90; i++)
+        s->displacement[i] = sample_number(i);
+done:
+    return status;
+}
+
 static inline enum pm_status sample_work(struct pm_work *w, struct pm_err *err)
 {
     enum pm_status status;
@@ -223,9 +248,11 @@ union sample {
     struct pm_work work;
     struct pm_sens sens;
     struct pm_step step;
+    struct pm_sweep sweep;
 };
 
-static const char *const sample_kinds[] = {"surface", "mesh", "state", "work", "sens", "step"};
+static const char *const sample_kinds[] = {"surface", "mesh", "state", "work",
+                                           "sens",    "step", "path"};
 enum { SAMPLE_KINDS = sizeof sample_kinds / sizeof sample_kinds[0] };
 
 /* Index in sample_kinds, SAMPLE_KINDS for another word. */
@@ -252,6 +279,8 @@ static inline enum pm_status sample_make(const char *kind, union sample *r, stru
         return sample_sens(&r->sens, err);
     case 5:
         return sample_step(&r->step, err);
+    case 6:
+        return sample_sweep(&r->sweep, err);
     default:
         return pm_fail(err, PM_USAGE, "no kind '%s'", kind);
     }
@@ -271,8 +300,10 @@ static inline enum pm_status sample_load(const char *kind, const char *path, uni
         return pm_work_load(path, 0, &r->work, err);
     case 4:
         return pm_sens_load(path, &r->sens, err);
-    default:
+    case 5:
         return pm_step_load(path, &r->step, err);
+    default:
+        return pm_sweep_load(path, &r->sweep, err);
     }
 }
 
@@ -294,8 +325,11 @@ static inline void sample_release(const char *kind, union sample *r)
     case 4:
         pm_sens_release(&r->sens);
         break;
-    default:
+    case 5:
         pm_step_release(&r->step);
+        break;
+    default:
+        pm_sweep_release(&r->sweep);
     }
 }
 
@@ -324,8 +358,11 @@ static inline enum pm_status sample_write(const char *path, const char *kind, co
     case 4:
         written = pm_sens_write(f, record, err);
         break;
-    default:
+    case 5:
         written = pm_step_write(f, record, err);
+        break;
+    default:
+        written = pm_sweep_write(f, record, err);
     }
     PM_TRY(written);
     PM_TRY(pm_h5_commit(f, err));

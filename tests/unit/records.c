@@ -118,6 +118,28 @@ static void test_state(const char *path)
     pm_state_release(&b);
 }
 
+static void test_sweep(const char *path)
+{
+    struct pm_err err = {.status = PM_OK};
+    struct pm_sweep a, b;
+    ok(sample_sweep(&a, &err) == PM_OK, "sample path %s", err.text);
+    ok(sample_write(path, "path", &a, &err) == PM_OK, "write path %s", err.text);
+    if (!ok(pm_sweep_load(path, &b, &err) == PM_OK, "load path %s", err.text))
+        return;
+    ok(a.np == b.np && SAME(a.pressure, b.pressure, 6) && SAME(a.U, b.U, 18) &&
+           SAME(a.J, b.J, 36) && SAME(a.volume, b.volume, 6) &&
+           SAME(a.displacement, b.displacement, 90),
+       "fields come back");
+    ok(SAME(a.reached, b.reached, 3) && SAME(a.factorisations, b.factorisations, 3) &&
+           SAME(a.intersections, b.intersections, 3) && SAME(a.gap, b.gap, 3) &&
+           SAME(a.energy, b.energy, 3) && SAME(a.residual, b.residual, 3) &&
+           SAME(a.min_det_F, b.min_det_F, 3) && strcmp(a.reason, b.reason) == 0 &&
+           strcmp(a.element, b.element) == 0,
+       "points come back");
+    pm_sweep_release(&a);
+    pm_sweep_release(&b);
+}
+
 static void test_work_and_sens(const char *path)
 {
     struct pm_err err = {.status = PM_OK};
@@ -188,6 +210,7 @@ int main(void)
     test_surfaces(path);
     test_mesh(path);
     test_state(path);
+    test_sweep(path);
     test_work_and_sens(path);
     test_step(path);
     unlink(path);
