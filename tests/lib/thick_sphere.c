@@ -1,8 +1,9 @@
-/* An octant of a thick sphere, 1 <= r <= 2, as a gmsh 2.2 file, and the radial displacement of its
- * surfaces in a state file.
- *   thick_sphere write N M ORDER FILE.msh   N parts a side, M layers; ORDER quadratic (curved) or
- *                                           linear
- *   thick_sphere read STATE.h5              the mean radial displacements at r = 1 and r = 2 */
+/* An octant of a thick sphere, 1 <= r <= OUTER, as a gmsh 2.2 file, and the radial displacement of
+ * its surfaces in a state file.
+ *   thick_sphere write N M ORDER FILE.msh [OUTER]   N parts a side, M layers; ORDER quadratic
+ *                                                   (curved) or linear; OUTER 2 where not given
+ *   thick_sphere read STATE.h5                      the mean radial displacements inside, outside
+ */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -21,6 +22,7 @@ struct octant {
     int n, m, nv, nn, ne, nt, corners;  /* parts, layers, vertices, nodes ... */
     int id[MAX_SIDE + 1][MAX_SIDE + 1]; /* direction (i, j, n - i - j) */
     int nd;
+    double outer;
     double dir[MAX_SIDE * MAX_SIDE][3];
     double (*x)[3]; /* nodes */
     int (*ends)[2]; /* of the middle nodes */
@@ -41,7 +43,7 @@ static int middle(struct octant *o, int a, int b)
             return k;
     const int p = low % o->nd, q = high % o->nd;
     const int layers = low / o->nd + high / o->nd;
-    const double r = 1 + 0.5 * layers / o->m;
+    const double r = 1 + (o->outer - 1) * 0.5 * layers / o->m;
     double v[3], l = 0;
     for (int i = 0; i < 3; i++) {
         v[i] = o->dir[p][i] + o->dir[q][i];
@@ -127,7 +129,7 @@ static void build(struct octant *o)
     for (int layer = 0; layer <= o->m; layer++)
         for (int d = 0; d < o->nd; d++)
             for (int k = 0; k < 3; k++)
-                o->x[vertex(o, d, layer)][k] = (1 + (double)layer / o->m) * o->dir[d][k];
+                o->x[vertex(o, d, layer)][k] = (1 + (o->outer - 1) * layer / o->m) * o->dir[d][k];
     for (int layer = 0; layer < o->m; layer++)
         for (int i = 0; i < o->n; i++)
             for (int j = 0; i + j < o->n; j++) {
@@ -164,20 +166,21 @@ static void write_22(const struct octant *o, FILE *f)
     fprintf(f, "$EndElements\n");
 }
 
-static int write_octant(int n, int m, const char *order, const char *path)
+static int write_octant(int n, int m, const char *order, const char *path, double outer)
 {
     static struct octant o;
     const size_t side = (size_t)n, layers = (size_t)m;
     o.n = n;
     o.m = m;
+    o.outer = outer;
     o.corners = strcmp(order, "linear") == 0 ? 4 : 10;
     o.x = calloc(MAX_NODES, sizeof *o.x);
     o.ends = calloc(MAX_NODES, sizeof *o.ends);
     o.tet = calloc(3 * side * side * layers, sizeof *o.tet);
     o.tri = calloc(2 * side * side + 6 * side * layers, sizeof *o.tri);
     FILE *f = fopen(path, "wb");
-    if (n < 1 || n > MAX_SIDE || o.x == NULL || o.ends == NULL || o.tet == NULL || o.tri == NULL ||
-        f == NULL)
+    if (n < 1 || n > MAX_SIDE || m < 1 || !(outer > 1) || o.x == NULL || o.ends == NULL ||
+        o.tet == NULL || o.tri == NULL || f == NULL)
         return 1;
     build(&o);
     write_22(&o, f);
@@ -188,20 +191,27 @@ static int write_octant(int n, int m, const char *order, const char *path)
     return fclose(f) != 0;
 }
 
+static double radius(const double x[3])
+{
+    return sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
+}
+
 static int read_state(const char *path)
 {
     struct pm_err err = {.status = PM_OK};
     struct pm_state s;
-    double sum[2] = {0};
+    double sum[2] = {0}, outer = 0;
     int count[2] = {0};
     if (pm_state_load(path, 0, &s, &err) != PM_OK) {
         fprintf(stderr, "%s\n", err.text);
         return 1;
     }
+    for (ptrdiff_t a = 0; a < s.mesh.nn; a++)
+        outer = fmax(outer, radius(s.mesh.x + 3 * a));
     for (ptrdiff_t a = 0; a < s.mesh.nn; a++) {
         const double *x = s.mesh.x + 3 * a, *u = s.u + 3 * a;
-        const double r = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
-        const int k = fabs(r - 1) < 1e-9 ? 0 : fabs(r - 2) < 1e-9 ? 1 : -1;
+        const double r = radius(x);
+        const int k = fabs(r - 1) < 1e-9 ? 0 : fabs(r - outer) < 1e-9 ? 1 : -1;
         if (k < 0)
             continue;
         sum[k] += (x[0] * u[0] + x[1] * u[1] + x[2] * u[2]) / r;
@@ -214,11 +224,11 @@ static int read_state(const char *path)
 
 int main(int argc, char **argv)
 {
-    if (argc == 6 && strcmp(argv[1], "write") == 0)
+    if ((argc == 6 || argc == 7) && strcmp(argv[1], "write") == 0)
         return write_octant((int)strtol(argv[2], NULL, 10), (int)strtol(argv[3], NULL, 10), argv[4],
-                            argv[5]);
+                            argv[5], argc == 7 ? strtod(argv[6], NULL) : 2);
     if (argc == 3 && strcmp(argv[1], "read") == 0)
         return read_state(argv[2]);
-    fprintf(stderr, "usage: thick_sphere write N M ORDER FILE | read STATE\n");
+    fprintf(stderr, "usage: thick_sphere write N M ORDER FILE [OUTER] | read STATE\n");
     return 2;
 }
