@@ -12,6 +12,7 @@
 #include "tests/tap.h"
 #include "tools/adjsens/adjsens.h"
 #include "tools/fesolve/fesolve.h"
+#include "tools/meshexport/meshexport.h"
 #include "tools/surfgen/surfgen.h"
 #include "tools/surfremesh/surfremesh.h"
 #include "tools/trstep/trstep.h"
@@ -55,6 +56,12 @@ static enum pm_status adjsens(const struct pm_common *c, struct pm_err *err)
 static enum pm_status trstep(const struct pm_common *c, struct pm_err *err)
 {
     return trstep_run(&(struct trstep_opts){.judge = 0}, c, err);
+}
+
+static enum pm_status meshexport(const struct pm_common *c, struct pm_err *err)
+{
+    const struct meshexport_opts opts = {.npressure = 2, .pressure = {0.1, 0.05}, .steps = 1};
+    return meshexport_run(&opts, c, err);
 }
 
 static void test_tool(const struct attempt *a)
@@ -117,6 +124,7 @@ int main(void)
         {"fesolve", fesolve, {"mesh.h5"}},
         {"wsint", wsint, {"state-0.h5", "state-1.h5", "state-2.h5", "state-3.h5"}},
         {"adjsens", adjsens, {"state-0.h5", "work.h5"}},
+        {"meshexport", meshexport, {"mesh.h5"}},
         {"trstep",
          trstep,
          {"surf.h5", "work.h5", "sens-0.h5", "sens-1.h5", "sens-2.h5", "sens-3.h5"}},
