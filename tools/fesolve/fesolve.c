@@ -12,6 +12,7 @@
 #include "common/mechanics/equilibrium.h"
 #include "common/mechanics/restore.h"
 #include "tools/fesolve/guess.h"
+#include "tools/fesolve/path.h"
 
 /* Pressures of the run: a point of a Gauss set, or those given. */
 static enum pm_status choose_load(const struct fesolve_opts *o, struct pm_state *s,
@@ -65,11 +66,9 @@ static void reaction(const struct pm_model *m, const struct pm_config *c, const 
     }
 }
 
-/* Equilibrium from the guess, over a change of shape in 1, 2 or 4 parts, else from the undeformed
- * state. */
-static enum pm_status balance(const struct fesolve_opts *o, struct pm_model *m, const double *p,
-                              struct pm_config *c, double *volume, double *f,
-                              struct pm_solve_report *r, struct pm_err *err)
+enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m, const double *p,
+                               struct pm_config *c, double *volume, double *f,
+                               struct pm_solve_report *r, struct pm_err *err)
 {
     enum pm_status status = PM_NUMERIC;
     struct pm_solve_options options = pm_solve_default;
@@ -134,7 +133,7 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     pm_model_potential(m, &c, p, NULL, s->volume0, &low);
     for (ptrdiff_t i = 0; i < nc; i++)
         p[i] = s->pressure[i] * m->law.mu;
-    PM_TRY(balance(o, m, p, &c, s->volume, f, &r, err));
+    PM_TRY(fesolve_balance(o, m, p, &c, s->volume, f, &r, err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
     reaction(m, &c, f, s->reaction);
     PM_TRY(pm_config_store(m, &c, s, err));
@@ -172,10 +171,10 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
     enum pm_status status;
     struct pm_state s = {0};
     struct pm_h5 *out = NULL;
-    if (o->have_load == (o->npressure > 0))
-        return pm_fail(err, PM_USAGE, "expected exactly one of --load and --pressure");
+    if (o->have_load + (o->npressure > 0) + (o->path != NULL) != 1)
+        return pm_fail(err, PM_USAGE, "expected exactly one of --load, --pressure and --path");
     PM_TRY(pm_material_check(&o->material, err));
-    PM_TRY(pm_mesh_load(common->operands[0], o->record_failure, &s.mesh, err));
+    PM_TRY(pm_mesh_load(common->operands[0], o->record_failure && o->path == NULL, &s.mesh, err));
     if (s.mesh.failure[0] != '\0') {
         snprintf(s.failure, sizeof s.failure, "%s", s.mesh.failure);
         s.form = o->have_form ? o->form : s.mesh.pcase.form;
@@ -183,6 +182,10 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
     } else {
         if (o->material.law != NULL || o->material.preset != NULL || o->material.kappa > 0)
             PM_TRY(pm_case_set_material(&s.mesh.pcase, &o->material, err));
+        if (o->path != NULL) {
+            status = fesolve_path(o, common, &s.mesh, err);
+            goto done;
+        }
         PM_TRY(choose_load(o, &s, err));
         status = solve(o, &s, err);
         if (status == PM_NUMERIC && o->record_failure) {

@@ -1,25 +1,32 @@
-/* fesolve: stable static equilibrium of a mesh at one load. */
+/* fesolve: stable static equilibria of a mesh at one load or along a path of loads. */
 #ifndef PM_FESOLVE_H
 #define PM_FESOLVE_H
 
 #include "common/base/tool.h"
 #include "common/files/case.h"
+#include "common/mechanics/equilibrium.h"
 
 enum { FESOLVE_MOST_GUESSES = 32 };
 
 struct fesolve_opts {
-    int have_load, have_form, npressure; /* exactly one of load and pressure */
+    int have_load, have_form, npressure; /* exactly one of load, pressure and path */
     long load;
     enum pm_form form;
     double pressure[PM_MAX_CHAMBERS];            /* [p/mu] */
     const char *guess[FESOLVE_MOST_GUESSES + 1]; /* ends with NULL */
     int nguess;
+    const char *path; /* file of pressures, one point a line */
     const char *element;
     struct pm_material material; /* instead of that of the mesh, where it says anything */
     double tolerance;
     int record_failure;
 };
 
+/* Equilibrium at p (nc) [MPa] into c (undeformed on entry) from the guesses, over a change of shape
+ * in 1, 2 or 4 parts, else from the undeformed state; the rest as pm_equilibrium. */
+enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m, const double *p,
+                               struct pm_config *c, double *volume, double *f,
+                               struct pm_solve_report *r, struct pm_err *err);
 enum pm_status fesolve_run(const struct fesolve_opts *opts, const struct pm_common *common,
                            struct pm_err *err);
 

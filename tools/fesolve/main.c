@@ -6,6 +6,7 @@ static const struct pm_option options[] = {
     {"load", 'l', "G", "solve at point G (from 0) of the Gauss set of the case"},
     {"form", 'F', "NAME", "Gauss set: boundary or volume (default: the form of the case)"},
     {"pressure", 'p', "P1,P2,..", "solve at these chamber pressures, as ratios p/mu"},
+    {"path", 'P', "FILE", "solve at the pressures of FILE, one point a line, each from the last"},
     {"guess", 'g', "STATE.h5",
      "start from this state of the same connectivity; repeated: the nearest in pressure"},
     {"element", 'e', "NAME",
@@ -16,7 +17,7 @@ static const struct pm_option options[] = {
     {"kappa", 0, "MPA", "another bulk modulus (default with another material: 100 mu)"},
     {"tolerance", 't', "T", "residual / pressure load at the solution (default 1e-8)"},
     {"record-failure", 'r', NULL,
-     "where there is no stable equilibrium, write a state that says why"},
+     "where there is no stable equilibrium, write a file that says why"},
     {0}};
 
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
@@ -37,6 +38,8 @@ static enum pm_status option(void *data, const char *name, const char *value, st
                              "option --form: found '%s', expected boundary or volume", value);
     } else if (strcmp(name, "pressure") == 0) {
         status = pm_parse_doubles(name, value, PM_MAX_CHAMBERS, o->pressure, &o->npressure, err);
+    } else if (strcmp(name, "path") == 0) {
+        o->path = value;
     } else if (strcmp(name, "guess") == 0) {
         if (o->nguess == FESOLVE_MOST_GUESSES)
             return pm_fail(err, PM_USAGE, "option --guess: more than %d files",
