@@ -46,6 +46,17 @@ done:
     return status;
 }
 
+static enum pm_status plot_path(const char *path, struct pm_err *err)
+{
+    struct pm_sweep s;
+    const enum pm_status status = pm_sweep_load(path, &s, err);
+
+    if (status == PM_OK)
+        pmplot_path(&s);
+    pm_sweep_release(&s);
+    return status;
+}
+
 enum pm_status pmplot_run(const struct pmplot_opts *opts, const struct pm_common *common,
                           struct pm_err *err)
 {
@@ -58,8 +69,11 @@ enum pm_status pmplot_run(const struct pmplot_opts *opts, const struct pm_common
         return pm_fail(err, PM_USAGE, "'%s' takes one file, got %d", what, common->noperands - 1);
     if (strcmp(what, "surface") == 0 || strcmp(what, "section") == 0)
         return plot_surfaces(opts, what, common->operands[1], err);
+    if (strcmp(what, "path") == 0)
+        return plot_path(common->operands[1], err);
     if (several || strcmp(what, "deformed") == 0)
         return plot_states(what, common->operands + 1, common->noperands - 1, err);
     return pm_fail(err, PM_USAGE,
-                   "unknown table '%s', expected surface, section, deformed or workspace", what);
+                   "unknown table '%s', expected surface, section, deformed, path or workspace",
+                   what);
 }

@@ -8,6 +8,7 @@
 #include "common/base/tool.h"
 #include "common/files/state.h"
 #include "common/files/surfaces.h"
+#include "common/files/sweep.h"
 
 struct pmplot_opts {
     int accepted; /* of a step file the accepted design, not the proposed one */
@@ -24,6 +25,9 @@ enum pm_status pmplot_surface(const struct pm_surfaces *s, struct pm_err *err);
 enum pm_status pmplot_section(const struct pm_surfaces *s, double y, struct pm_err *err);
 /* deformed: triangles x y z |u| light surface of a state: 0 outside, 1.. chambers. */
 void pmplot_deformed(const struct pm_state *s);
+/* path: a line a point that was reached: pressures, pose, volumes, energy, gap, intersections; a
+ * blank line for one that was not. */
+void pmplot_path(const struct pm_sweep *s);
 /* workspace: the image of the edges of the actuation square in the two DoFs of the case, closed;
  * then the given states, then their images by symmetry: U p. Between states the curve is the cubic
  * that has their U and J. Needs states at the corners of the square, themselves or by symmetry. */
