@@ -128,12 +128,14 @@ format-page: $B/tests/lib/schema_page ## update the list of items in man/pneumor
 
 .PHONY: install uninstall clean help
 CASES := $(wildcard data/cases/*.ini)
+BODIES := $(wildcard data/bodies/*.geo)
 MAN_PAGES := $(wildcard man/*.[1-9])
 share = $(DESTDIR)$(PREFIX)/share
 install: build ## install tools, pages and cases under $(DESTDIR)$(PREFIX)
-	install -d $(DESTDIR)$(PREFIX)/bin $(share)/pneumorph/cases
+	install -d $(DESTDIR)$(PREFIX)/bin $(share)/pneumorph/cases $(share)/pneumorph/bodies
 	install -m 755 $(TOOL_BIN) $(DESTDIR)$(PREFIX)/bin
 	install -m 644 $(CASES) $(share)/pneumorph/cases
+	install -m 644 $(BODIES) $(share)/pneumorph/bodies
 	for page in $(MAN_PAGES); do install -D -m 644 -t $(share)/man/man$${page##*.} $$page || exit 1; done
 uninstall: ## remove what install wrote
 	rm -f $(TOOLS:%=$(DESTDIR)$(PREFIX)/bin/%)

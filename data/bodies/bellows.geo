@@ -7,6 +7,7 @@ SetFactory("OpenCASCADE");
 DefineConstant[
     size = 1.25     // longest edges
     crest = 1.2     // longest edges over the radius of curvature
+    order = 2       // of the tetrahedra
     shift = 0       // of the chamber's axis along x; other than 0: a half model
     straight = 0    // 1: mid-side nodes in the middle of chords instead of on the surface
     wall = 2.5, radius = 10, depth = 2.5, pitch = 15, pitches = 2, plate = 2.5, fillet = 1.25];
@@ -72,12 +73,12 @@ If (shift == 0)
     Physical Surface("symmetry-x") = Surface In BoundingBox{-e, -R, -R, e, R, R + length};
 EndIf
 
-// Edges of at most 1.2 radii of curvature, half of the wanted ones at the crests where that is less.
+// Edges of at most `crest` radii of curvature; quadratic, with the mid-side nodes on the surface.
 Mesh.MeshSizeMax = size;
 Mesh.MeshSizeFromCurvature = 2 * Pi / crest;
 Mesh.Algorithm3D = 10;
 Mesh.Optimize = 1;
-Mesh.ElementOrder = 2;
+Mesh.ElementOrder = order;
 Mesh.SecondOrderLinear = straight;
-Mesh.HighOrderOptimize = straight ? 0 : 1;
+Mesh.HighOrderOptimize = straight ? 0 : 1; // mends curved tetrahedra that are inside out
 Mesh.MshFileVersion = 4.1;

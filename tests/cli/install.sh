@@ -12,10 +12,11 @@ for page in man5/pneumorph-case.5 man5/pneumorph-format.5 man7/pneumorph.7 man7/
     check "$page" test -s "$root/usr/share/man/$page"
 done
 check "the case is there" cmp data/cases/2A0R2T.ini "$root/usr/share/pneumorph/cases/2A0R2T.ini"
+check "the body is there" cmp data/bodies/bellows.geo "$root/usr/share/pneumorph/bodies/bellows.geo"
 check "uninstall" make -s B="$BUILD" uninstall DESTDIR="$root" PREFIX=/usr
 check "uninstall leaves no file" test -z "$(find "$root" -type f)"
 expect 0 "make help" make -s help
-for target in all check demo deps lint install uninstall clean; do
+for target in all accuracy check demo deps lint install uninstall clean; do
     check "make help lists $target" grep -q "^$target  *[a-zA-Z]" "$work/out"
 done
 finish
