@@ -11,7 +11,7 @@ ACCURACY_SIZES ?= 2.5 1.75 1.25
 ACCURACY_FINE ?= 0.83
 A := $(ACCURACY_RUN)
 ACCURACY = BIN='$B/bin' LIB='$B/tests/lib' PRESSURE=0.12 ELEMENTS='$(ACCURACY_ELEMENTS)' pipelines/accuracy.sh
-ACCURACY_TOOLS := $(addprefix $B/bin/,tetmesh fesolve) $(addprefix $B/tests/lib/,thick_sphere slice)
+ACCURACY_TOOLS := $(addprefix $B/bin/,tetmesh fesolve) $(addprefix $B/tests/lib/,thick_sphere slice pressure_noise)
 ACCURACY_CURVED := $(filter-out tet4,$(ACCURACY_ELEMENTS))
 
 # Rows MESH+ELEMENT+KAPPA+LAW: both bodies with all elements; other bulk moduli and laws on the symmetric one.
@@ -32,7 +32,7 @@ ACCURACY_ROUNDS := $(patsubst %,$A/round-%.tsv,10 100 1000)
 .PRECIOUS: $A/%.msh $A/%.h5
 accuracy: all ## errors of all elements by mesh size and CPU time: tables and a chart in run/accuracy/
 	+@$(MAKE) --no-print-directory $(JOBS) accuracy-results
-accuracy-results: $A/bellows.tsv $(ACCURACY_ROUNDS) $A/cook.tsv $A/bellows.png
+accuracy-results: $A/bellows.tsv $(ACCURACY_ROUNDS) $A/cook.tsv $A/noise.tsv $A/bellows.png
 	@for table in $(filter %.tsv,$^); do $(ACCURACY) report $$table; echo; done
 
 $A/%.msh: data/bodies/bellows.geo
@@ -52,5 +52,7 @@ $A/cook.tsv: | $(ACCURACY_TOOLS)
 	$(ACCURACY) cook >$@
 $A/bellows.tsv: $(ACCURACY_ROWS)
 	$(ACCURACY) table $^ >$@
+$A/noise.tsv: $(ACCURACY_ROWS)
+	$(ACCURACY) noise $^ >$@
 $A/bellows.png: $A/bellows.tsv pipelines/pictures/accuracy.gp
 	gnuplot -c pipelines/pictures/accuracy.gp $< $@

@@ -1,5 +1,5 @@
 #!/bin/bash
-# accuracy.sh mesh BODY.geo NAME.msh | row MESH.h5 NAME.row | round KAPPA | cook | table ROW.. | report TABLE
+# accuracy.sh mesh BODY.geo NAME.msh | row MESH.h5 NAME.row | round KAPPA | cook | table ROW.. | noise ROW.. | report TABLE
 # The measurements of accuracy.mk. A mesh is named BODY-SIZE-KIND: q (quarter, symmetric) or h (half, bends); kind curved,
 # straight (middles of chords), linear, or fine (for references: smaller edges at the crests). A row is named
 # MESH+ELEMENT+KAPPA+LAW, kappa in mu.
@@ -105,7 +105,7 @@ make_cook() {
     done
 }
 
-# Errors [%] of translation, rotation and volume change against the finest row of the same body, kappa and law.
+# Errors [%] of translation (e_pose: of the whole vector), rotation and volume change against the finest row of the same body, kappa and law.
 make_table() {
     printf 'body\tsize\tkind\telement\tkappa\tlaw\tunknowns\ttets\tfactorisations\tcpu_s\tUx\tUz\ttheta_y\tdV\te_Ux\te_Uz\te_theta\te_dV\te_pose\n'
     cat "$@" | awk -F '\t' -v OFS='\t' '
@@ -116,12 +116,27 @@ make_table() {
             for (i = 1; i <= NR; i++) {
                 $0 = row[i]; key = $1 "+" $5 "+" $6
                 dx = $11 - x[key]; dz = $13 - z[key]
-                e = sqrt((dx * dx + dz * dz) / (x[key] ^ 2 + z[key] ^ 2)) # rotations: column of their own
+                length = sqrt(x[key] ^ 2 + z[key] ^ 2)
+                e = length > 0 ? sprintf("%.2f", 100 * sqrt(dx * dx + dz * dz) / length) : "-"
                 print $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, sprintf("%.4f", $11), sprintf("%.4f", $13),
                     sprintf("%.5f", $15), sprintf("%.2f", $17 - $18), error($11, x[key]), error($13, z[key]),
-                    error($15, t[key]), error($17 - $18, v[key]), sprintf("%.2f", 100 * e)
+                    error($15, t[key]), error($17 - $18, v[key]), e
             }
         }' | sort -t "$(printf '\t')" -k 1,1 -k 5,5n -k 6,6 -k 3,3 -k 4,4 -k 2,2gr
+}
+
+# Jumps of element pressures between neighbours, in units of mu, beside the pressures themselves (root mean squares).
+make_noise() {
+    local row name mesh element kappa law
+    printf 'mesh\telement\tjump\tpressure\n'
+    for row in "$@"; do
+        name=$(basename "$row" .row)
+        # shellcheck disable=SC2034 # the place of kappa
+        IFS=+ read -r mesh element kappa law <<<"$name"
+        case $mesh+$element+$law in
+        *-curved+tet10*+neo-hookean) [ "$kappa" = 100 ] && printf '%s\t%s\t%s\n' "$mesh" "$element" "$("$LIB/pressure_noise" "${row%.row}.h5")" ;;
+        esac
+    done | sort -u
 }
 
 case $1 in
@@ -130,5 +145,6 @@ row) make_row "$2" "$3" ;;
 round) make_round "$2" ;;
 cook) make_cook ;;
 table) shift && make_table "$@" ;;
+noise) shift && make_noise "$@" ;;
 report) column -t -s "$(printf '\t')" "$2" ;;
 esac
