@@ -78,11 +78,14 @@ static inline double lanes_element_energy(const struct lanes_element *e, const d
     return E[LANE];
 }
 
-/* K (n x n) */
-static inline void lanes_element_tangent(const struct lanes_element *e, const double *u, double *K)
+/* K (n x n); mixed or NULL */
+static inline void lanes_element_tangent(const struct lanes_element *e, const double *u,
+                                         const double *mixed, double *K)
 {
+    pm_lanes M[PM_MIXED * PM_MOST_POINTS];
     pm_lanes U[3 * PM_MOST_NODES], out[LANES_MOST];
-    pm_element_tangent(&e->el, lanes_of(e->n, u, U), NULL, out);
+    pm_element_tangent(&e->el, lanes_of(e->n, u, U),
+                       mixed != NULL ? lanes_of(PM_MIXED * e->el.type->nq, mixed, M) : NULL, out);
     for (int b = 0, at = 0; b < e->n / 3; b++)
         for (int a = 0; a <= b; a++, at++)
             for (int i = 0; i < 3; i++)
@@ -91,12 +94,13 @@ static inline void lanes_element_tangent(const struct lanes_element *e, const do
                         out[9 * at + 3 * i + j][LANE];
 }
 
-static inline void lanes_element_pressure(const struct lanes_element *e, const double *u,
-                                          const double *du, double *p)
+/* mixed (nq x PM_MIXED) */
+static inline void lanes_element_mixed(const struct lanes_element *e, const double *u,
+                                       const double *du, double *mixed)
 {
-    pm_lanes U[3 * PM_MOST_NODES], d[3 * PM_MOST_NODES], out[PM_MOST_POINTS];
-    pm_element_pressure(&e->el, lanes_of(e->n, u, U), lanes_of(e->n, du, d), out);
-    lanes_pick(e->el.type->nq, out, p);
+    pm_lanes U[3 * PM_MOST_NODES], d[3 * PM_MOST_NODES], out[PM_MIXED * PM_MOST_POINTS];
+    pm_element_mixed(&e->el, lanes_of(e->n, u, U), lanes_of(e->n, du, d), out);
+    lanes_pick(PM_MIXED * e->el.type->nq, out, mixed);
 }
 
 static inline void lanes_element_apply(const struct lanes_element *e, const double *u,

@@ -5,6 +5,9 @@
 #include "common/base/memory.h"
 #include "common/mechanics/tensor.h"
 
+/* Of residuals where the factor is an older one. */
+static const double tolerance = 1e-12;
+
 enum pm_status pm_jacobian(struct pm_model *m, const struct pm_config *c, double scale, double *Jq,
                            double *J, struct pm_err *err)
 {
@@ -18,7 +21,7 @@ enum pm_status pm_jacobian(struct pm_model *m, const struct pm_config *c, double
         for (ptrdiff_t k = 0; k < nq; k++)
             Jq[r * nq + k] *= scale;
     }
-    PM_TRY(pm_model_solve(m, Jq, nc, err));
+    PM_TRY(pm_model_solve(m, Jq, nc, tolerance, err));
     for (int l = 0; l < 6; l++)
         for (ptrdiff_t r = 0; r < nc; r++)
             J[l * nc + r] = m->tail > 0 ? Jq[(r + 1) * nq - 6 + l] : 0.0;
@@ -163,7 +166,7 @@ static enum pm_status solve_adjoints(struct adjoint *A, const double *Jq, const 
         for (int l = 0; l < 6; l++)
             A->v[(k + 1) * nq - 6 + l] = -b[l * nc + A->col[k].r];
     if (A->n > 0)
-        PM_TRY(pm_model_solve(m, A->v, A->n, err));
+        PM_TRY(pm_model_solve(m, A->v, A->n, tolerance, err));
     for (int l = 0; l < 6; l++)
         v2[nq - 6 + l] = -a[l];
     for (ptrdiff_t k = 0; k < A->n; k++) {
@@ -174,7 +177,7 @@ static enum pm_status solve_adjoints(struct adjoint *A, const double *Jq, const 
             col->KJ[i] += Kx[i];
         subtract_second_order(A, col, work, v2);
     }
-    PM_TRY(pm_model_solve(m, v2, 1, err));
+    PM_TRY(pm_model_solve(m, v2, 1, tolerance, err));
 done:
     pm_free(work);
     pm_free(Kx);

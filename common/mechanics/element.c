@@ -213,7 +213,37 @@ static void add_modes(const struct pm_element *el, const struct kinematics *k, p
     }
 }
 
-void pm_element_tangent(const struct pm_element *el, const pm_lanes *u, const pm_lanes *pressure,
+/* S = F^-1 P, symmetric: 11 22 33 12 23 13. */
+static void second_stress(const struct kinematics *k, int q, const pm_lanes P[9], pm_lanes S[6])
+{
+    pm_lanes j = 1.0 / (1.0 + k->Jm1[q]);
+    for (int i = 0; i < 6; i++) {
+        int I = i % 3, J = i < 3 ? I : (I + 1) % 3;
+        const pm_lanes *C = k->C[q];
+        S[i] = j * (C[I] * P[J] + C[3 + I] * P[3 + J] + C[6 + I] * P[6 + J]);
+    }
+}
+
+/* The geometric part of A, delta_ij S_IJ, with the independent stresses in place of those at F. */
+static void replace_stress(const struct pm_element *el, const struct kinematics *k, int q,
+                           const pm_lanes mixed[PM_MIXED], pm_lanes A[81])
+{
+    pm_lanes W, P[9], S[6];
+    pm_law_stress(el->law, k->F[q], &W, P);
+    pm_lanes_axpy9(mixed[0], k->C[q], P);
+    second_stress(k, q, P, S);
+    for (int n = 0; n < 6; n++) {
+        int I = n % 3, J = n < 3 ? I : (I + 1) % 3;
+        pm_lanes d = mixed[1 + n] - S[n];
+        for (int i = 0; i < 3; i++) {
+            A[9 * (3 * i + I) + 3 * i + J] += d;
+            if (I != J)
+                A[9 * (3 * i + J) + 3 * i + I] += d;
+        }
+    }
+}
+
+void pm_element_tangent(const struct pm_element *el, const pm_lanes *u, const pm_lanes *mixed,
                         pm_lanes *K)
 {
     struct kinematics k;
@@ -221,8 +251,11 @@ void pm_element_tangent(const struct pm_element *el, const pm_lanes *u, const pm
     double bk = el->blend * el->law->kappa;
     deform(el, u, &k);
     for (int q = 0; q < el->type->nq; q++) {
-        pm_lanes X[81], pi = pressure != NULL ? pressure[q] : blend(el, k.Jm1[q], k.bar[q]);
+        const pm_lanes *s = mixed != NULL ? mixed + PM_MIXED * q : NULL;
+        pm_lanes X[81], pi = s != NULL ? s[0] : blend(el, k.Jm1[q], k.bar[q]);
         pm_law_tangent(el->law, k.F[q], A[q]);
+        if (s != NULL)
+            replace_stress(el, &k, q, s, A[q]);
         pm_lanes_cross_matrix(k.F[q], X);
         for (int m = 0; m < 9; m++) {
             pm_lanes c = bk * k.C[q][m];
@@ -236,20 +269,44 @@ void pm_element_tangent(const struct pm_element *el, const pm_lanes *u, const pm
         add_modes(el, &k, K);
 }
 
-void pm_element_pressure(const struct pm_element *el, const pm_lanes *u, const pm_lanes *du,
-                         pm_lanes *pressure)
+/* dS = F^-1 (A:G + dpi C + pi F x G - G S), S of the stress at F. */
+static void stress_increment(const struct pm_element *el, const struct kinematics *k, int q,
+                             const pm_lanes G[9], pm_lanes pi, pm_lanes dpi, pm_lanes S[6])
+{
+    pm_lanes W, P[9], dP[9], FG[9], dS[6];
+    pm_law_stress(el->law, k->F[q], &W, P);
+    pm_lanes_axpy9(pi, k->C[q], P);
+    second_stress(k, q, P, S);
+    pm_law_apply(el->law, k->F[q], G, dP);
+    pm_lanes_axpy9(dpi, k->C[q], dP);
+    pm_lanes_cross9(k->F[q], G, FG);
+    pm_lanes_axpy9(pi, FG, dP);
+    for (int i = 0; i < 3; i++) {
+        dP[3 * i] -= G[3 * i] * S[0] + G[3 * i + 1] * S[3] + G[3 * i + 2] * S[5];
+        dP[3 * i + 1] -= G[3 * i] * S[3] + G[3 * i + 1] * S[1] + G[3 * i + 2] * S[4];
+        dP[3 * i + 2] -= G[3 * i] * S[5] + G[3 * i + 1] * S[4] + G[3 * i + 2] * S[2];
+    }
+    second_stress(k, q, dP, dS);
+    for (int n = 0; n < 6; n++)
+        S[n] += dS[n];
+}
+
+void pm_element_mixed(const struct pm_element *el, const pm_lanes *u, const pm_lanes *du,
+                      pm_lanes *mixed)
 {
     struct kinematics k;
-    pm_lanes J[NQ] = {{0}}, bar[NQ];
+    pm_lanes G[NQ][9], dJ[NQ] = {{0}}, bar[NQ];
     deform(el, u, &k);
     for (int q = 0; q < el->type->nq; q++) {
-        pm_lanes G[9];
-        pm_lanes_gradient(el->type->npe, du, gradients(el, q), G);
-        J[q] = k.Jm1[q] + pm_lanes_dot9(k.C[q], G);
+        pm_lanes_gradient(el->type->npe, du, gradients(el, q), G[q]);
+        dJ[q] = pm_lanes_dot9(k.C[q], G[q]);
     }
-    project(el, J, bar);
-    for (int q = 0; q < el->type->nq; q++)
-        pressure[q] = blend(el, J[q], bar[q]);
+    project(el, dJ, bar);
+    for (int q = 0; q < el->type->nq; q++) {
+        pm_lanes pi = blend(el, k.Jm1[q], k.bar[q]), dpi = blend(el, dJ[q], bar[q]);
+        mixed[PM_MIXED * q] = pi + dpi;
+        stress_increment(el, &k, q, G[q], pi, dpi, mixed + PM_MIXED * q + 1);
+    }
 }
 
 /* ---- contractions ---- */

@@ -31,13 +31,16 @@ double pm_element_geometry(const struct pm_element_type *type, const double *X, 
  * the energy is infinite and f of no use. */
 void pm_element_energy(const struct pm_element *el, const pm_lanes *u, pm_lanes *f,
                        pm_lanes *energy, pm_lanes *min_det);
-/* Blocks a <= b of K: K[9 (b (b + 1)/2 + a) + 3 i + j] = d2Pi/dx_ai dx_bj. pressure (nq): pressures
- * of the geometric part, as in mixed Newton (MIP); NULL: the exact ones. */
-void pm_element_tangent(const struct pm_element *el, const pm_lanes *u, const pm_lanes *pressure,
+/* Blocks a <= b of K: K[9 (b (b + 1)/2 + a) + 3 i + j] = d2Pi/dx_ai dx_bj. mixed (nq x
+ * PM_MIXED): independent pressures and stresses of the geometric part; NULL: the exact ones. */
+void pm_element_tangent(const struct pm_element *el, const pm_lanes *u, const pm_lanes *mixed,
                         pm_lanes *K);
-/* MIP update: pressure (nq) at u, linearised along du. */
-void pm_element_pressure(const struct pm_element *el, const pm_lanes *u, const pm_lanes *du,
-                         pm_lanes *pressure);
+/* Mixed integration points (Magisano, Leonetti, Garcea 2017): at each point the pressure and the
+ * second Piola-Kirchhoff stress 11 22 33 12 23 13 at u, linearised along du. They are free of the
+ * strain that a straight step of rotating parts leaves. */
+enum { PM_MIXED = 7 };
+void pm_element_mixed(const struct pm_element *el, const pm_lanes *u, const pm_lanes *du,
+                      pm_lanes *mixed);
 /* f = K v */
 void pm_element_apply(const struct pm_element *el, const pm_lanes *u, const pm_lanes *v,
                       pm_lanes *f);

@@ -1,6 +1,6 @@
-/* Stable static equilibrium by load continuation: second-order predictor, Newton with mixed
- * pressures (MIP), line search on the potential, step halving where the factor, an inverted element
- * or the line search says no. */
+/* Stable static equilibrium by load continuation: predictors of first and second order, Newton
+ * (newton.h), step halving where the factor, an inverted element or a lack of convergence says no.
+ */
 #ifndef PM_EQUILIBRIUM_H
 #define PM_EQUILIBRIUM_H
 
@@ -17,7 +17,7 @@ struct pm_solve_options {
 extern const struct pm_solve_options pm_solve_default;
 
 struct pm_solve_report {
-    long load_steps, newton_steps, factorisations, backoffs;
+    long load_steps, newton_steps, factorisations, solves, backoffs;
     int warm;        /* 1: the guess led to the solution, 0: from the undeformed state */
     double lambda;   /* load parameter reached */
     double residual; /* relative, at the solution */
@@ -28,16 +28,16 @@ struct pm_solve_report {
 
 /* A guess in c: the loads it belongs to, and the pressures in its elements or NULL. */
 struct pm_guess {
-    const double *at;         /* (nc) [MPa] */
-    const pm_lanes *pressure; /* as pm_model_pressure [MPa] */
-    int only;                 /* 1: no other start where the guess fails */
+    const double *at;      /* (nc) [MPa] */
+    const pm_lanes *mixed; /* as pm_model_mixed [MPa] */
+    int only;              /* 1: no other start where the guess fails */
 };
 
-/* Equilibrium at pressures p (nc) [MPa] into c, and the factor of the exact tangent there. guess or
- * NULL: c holds a guess, corrected at its own loads and followed from there to p; one that fails is
- * reported, and the path starts anew from the undeformed state, or (guess->only) that is
- * PM_NUMERIC. PM_NUMERIC with the load reached and the last reason if there is no stable
- * equilibrium. volume (nc) and f (nn x 3): chamber volumes and nodal forces at the solution. */
+/* Equilibrium at pressures p (nc) [MPa] into c, with the model ready for solves with its exact
+ * tangent. guess NULL: from the undeformed state; else c holds a guess, corrected at its own loads
+ * and followed from there to p. PM_NUMERIC with the load reached and the last reason if that does
+ * not lead to a stable equilibrium. volume (nc) and f (nn x 3): chamber volumes and nodal forces at
+ * the solution. */
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
                               const struct pm_guess *guess, struct pm_config *c, double *volume,
                               double *f, struct pm_solve_report *r, struct pm_err *err);

@@ -201,7 +201,7 @@ void pm_config_release(struct pm_config *c)
 }
 
 /* The rigid end-effector moves its nodes: u_a = t + (R - I) r_a. */
-static void place_tip(const struct pm_model *m, struct pm_config *c)
+void pm_model_place_tip(const struct pm_model *m, struct pm_config *c)
 {
     struct pm_rotation rot;
     pm_rotation_at(c->U + 3, 0, &rot);
@@ -228,7 +228,7 @@ void pm_model_move(const struct pm_model *m, const struct pm_config *from, const
         return;
     for (int k = 0; k < 6; k++)
         to->U[k] += s * dq[m->nq - 6 + k];
-    place_tip(m, to);
+    pm_model_place_tip(m, to);
 }
 
 void pm_model_expand(const struct pm_model *m, const struct pm_config *c, const double *v,

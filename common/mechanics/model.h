@@ -37,7 +37,9 @@ struct pm_model {
     double origin[3]; /* x0 of the cavity volumes, on every symmetry plane        [mm] */
     double *value;    /* tangent, values of the pattern */
     struct pm_cholesky *factor;
-    long factorisations;
+    int factored; /* the factor is one of a positive definite tangent: 1 that of `value`, 2 an older
+                     one, 0 none */
+    long factorisations, solves; /* solves: with the factor, of all columns together */
 };
 
 /* Block (a, b) of an element: values[at + c * height + d] holds its component (d, c), or (c, d)
@@ -64,6 +66,8 @@ enum pm_status pm_config_new(const struct pm_model *m, struct pm_config *c,
 void pm_config_copy(const struct pm_model *m, const struct pm_config *from, struct pm_config *to);
 void pm_config_release(struct pm_config *c);
 
+/* Moves the nodes of the end-effector by c->U: u_a = t + (R - I) r_a. */
+void pm_model_place_tip(const struct pm_model *m, struct pm_config *c);
 /* to = from moved by s dq (to may be from). */
 void pm_model_move(const struct pm_model *m, const struct pm_config *from, const double *dq,
                    double s, struct pm_config *to);
@@ -82,19 +86,31 @@ double pm_model_potential(const struct pm_model *m, const struct pm_config *c, c
 /* dV_r/dx (nodal) for chamber r, 0-based. */
 void pm_model_volume_gradient(const struct pm_model *m, const struct pm_config *c, ptrdiff_t r,
                               double *nodal);
-/* Assembles K at c (f: nodal forces there; pressure for MIP or NULL) into m->value. */
+/* Assembles K at c (f: nodal forces there; mixed for MIP or NULL) into m->value. */
 void pm_model_assemble(struct pm_model *m, const struct pm_config *c, const double *p,
-                       const double *f, const pm_lanes *pressure);
+                       const double *f, const pm_lanes *mixed);
 /* The same, and factors it. */
 enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p,
-                               const double *f, const pm_lanes *pressure, int *definite,
+                               const double *f, const pm_lanes *mixed, int *definite,
                                struct pm_err *err);
-enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, struct pm_err *err);
-/* MIP pressures (nb x points) at c, linearised along the nodal field du. */
-enum pm_status pm_model_pressure_new(const struct pm_model *m, pm_lanes **pressure,
-                                     struct pm_err *err);
-void pm_model_pressure(const struct pm_model *m, const struct pm_config *c, const double *du,
-                       pm_lanes *pressure);
+/* Makes solves with the exact tangent at c possible, by the factor at hand and conjugate gradients
+ * where they need few steps, else by its own factor. probe (q-vector): a right-hand side, replaced
+ * by its solution to `tolerance`. definite: 1 by the new factor, or where the eigenvalues of
+ * factor^-1 K that the probe excites lie above 1/4. */
+enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, const double *p,
+                                const double *f, double *probe, double tolerance, int *definite,
+                                struct pm_err *err);
+/* q (nq x nrhs) is replaced by K^-1 q, K as assembled last. Where the factor is older: to residuals
+ * of `tolerance`, with a new factor if that takes too long. */
+enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, double tolerance,
+                              struct pm_err *err);
+/* Steps of conjugate gradients that cost half a factorisation. */
+int pm_model_patience(const struct pm_model *m);
+/* Independent pressures and stresses (nb x points x PM_MIXED) at c, linearised along the nodal
+ * field du. */
+enum pm_status pm_model_mixed_new(const struct pm_model *m, pm_lanes **mixed, struct pm_err *err);
+void pm_model_mixed(const struct pm_model *m, const struct pm_config *c, const double *du,
+                    pm_lanes *mixed);
 
 /* out = K_x v (nodal, pressure stiffness included; overwritten). */
 void pm_model_apply(const struct pm_model *m, const struct pm_config *c, const double *p,

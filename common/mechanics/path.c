@@ -5,6 +5,9 @@
 #include "common/base/memory.h"
 #include "common/mechanics/tensor.h"
 
+/* A predictor needs no more. */
+static const double tolerance = 1e-4;
+
 /* Nodal fields along the path. */
 struct fields {
     double *load; /* sum_r dp_r dV_r/dx            (nn x 3) */
@@ -79,21 +82,29 @@ static void second_order(const struct pm_model *m, const struct pm_config *cfg, 
 }
 
 enum pm_status pm_path_derivatives(struct pm_model *m, const struct pm_config *c, const double *p,
-                                   const double *f, const double *dp, double *dq, double *ddq,
-                                   struct pm_err *err)
+                                   const double *f, const double *dp, double *du1, double *du2,
+                                   int *definite, struct pm_err *err)
 {
     enum pm_status status;
     struct fields k;
     ptrdiff_t n3 = 3 * m->nn;
-    double *store = NULL;
-    PM_TRY(PM_NEW(store, 5 * n3, err));
-    k = (struct fields){store, store + n3, store + 2 * n3, store + 3 * n3, store + 4 * n3};
+    double *store = NULL, *dq = NULL, *ddq;
+    PM_TRY(PM_NEW(store, 4 * n3, err));
+    PM_TRY(PM_NEW(dq, 2 * m->nq, err));
+    ddq = dq + m->nq;
+    k = (struct fields){store, du1, store + n3, store + 2 * n3, store + 3 * n3};
     load_field(m, c, dp, &k);
     pm_model_reduce(m, c, k.load, dq);
-    PM_TRY(pm_model_solve(m, dq, 1, err));
+    PM_TRY(pm_model_prepare(m, c, p, f, dq, tolerance, definite, err));
+    if (!*definite)
+        goto done;
     second_order(m, c, p, f, dp, dq, &k, ddq);
-    PM_TRY(pm_model_solve(m, ddq, 1, err));
+    PM_TRY(pm_model_solve(m, ddq, 1, tolerance, err));
+    pm_model_expand(m, c, ddq, du2);
+    for (ptrdiff_t i = 0; i < n3; i++)
+        du2[i] += k.c[i];
 done:
     pm_free(store);
+    pm_free(dq);
     return status;
 }

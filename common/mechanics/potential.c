@@ -223,20 +223,19 @@ void pm_model_shape(const struct pm_model *m, const struct pm_config *c, const d
     }
 }
 
-enum pm_status pm_model_pressure_new(const struct pm_model *m, pm_lanes **pressure,
-                                     struct pm_err *err)
+enum pm_status pm_model_mixed_new(const struct pm_model *m, pm_lanes **mixed, struct pm_err *err)
 {
-    return PM_NEW_LANES(*pressure, m->nb * m->space.type->nq, err);
+    return PM_NEW_LANES(*mixed, PM_MIXED * m->nb * m->space.type->nq, err);
 }
 
-void pm_model_pressure(const struct pm_model *m, const struct pm_config *c, const double *du,
-                       pm_lanes *pressure)
+void pm_model_mixed(const struct pm_model *m, const struct pm_config *c, const double *du,
+                    pm_lanes *mixed)
 {
     for (ptrdiff_t b = 0; b < m->nb; b++) {
         struct pm_element el = pm_model_batch(m, b);
         pm_lanes u[VALUES], d[VALUES];
         pm_model_gather(m, b, c->u, u);
         pm_model_gather(m, b, du, d);
-        pm_element_pressure(&el, u, d, pressure + m->space.type->nq * b);
+        pm_element_mixed(&el, u, d, mixed + PM_MIXED * m->space.type->nq * b);
     }
 }

@@ -11,6 +11,7 @@ struct pm_cholesky {
     cholmod_common common;
     cholmod_sparse matrix; /* borrowed pattern, values set per factorisation */
     cholmod_factor *factor;
+    double entries, flops;
     cholmod_dense *x, *y, *e; /* workspaces of cholmod_l_solve2 */
 };
 
@@ -90,6 +91,8 @@ enum pm_status pm_cholesky_new(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_
         pm_cholesky_free(c);
         return status;
     }
+    c->entries = cm->lnz;
+    c->flops = cm->fl;
     *out = c;
     return PM_OK;
 }
@@ -128,6 +131,12 @@ enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrh
                        cm->status);
     memcpy(x, c->x->x, n * (size_t)nrhs * sizeof *x);
     return PM_OK;
+}
+
+void pm_cholesky_size(const struct pm_cholesky *c, double *entries, double *flops)
+{
+    *entries = c->entries;
+    *flops = c->flops;
 }
 
 void pm_cholesky_free(struct pm_cholesky *c)

@@ -25,6 +25,8 @@ enum pm_status pm_cholesky_factor(struct pm_cholesky *c, const double *value, in
 /* x (n x nrhs, column after column) is replaced by A^-1 x. */
 enum pm_status pm_cholesky_solve(struct pm_cholesky *c, double *x, ptrdiff_t nrhs,
                                  struct pm_err *err);
+/* Entries of the factor and floating point operations of a factorisation. */
+void pm_cholesky_size(const struct pm_cholesky *c, double *entries, double *flops);
 void pm_cholesky_free(struct pm_cholesky *c);
 
 #endif

@@ -64,22 +64,28 @@ static double difference(const struct setting *s, int order, int move_X, const d
     return (side[1] - side[0]) / (2 * h);
 }
 
-static void pressures(const struct setting *s, const struct lanes_element *el, double *u)
+/* Independent pressures and stresses: at the same place they are those of the displacements, and
+ * the linearised ones err by the square of the step. */
+static void mixed(const struct setting *s, const struct lanes_element *el, double *u,
+                  const double *K)
 {
-    double zero[MOST] = {0}, du[MOST], p0[PM_MOST_POINTS], p1[PM_MOST_POINTS],
-           exact[PM_MOST_POINTS], far = 0.0, near = 0.0;
+    enum { N = PM_MIXED * PM_MOST_POINTS };
+    double zero[MOST] = {0}, du[MOST], p0[N], p1[N], exact[N], same[MOST * MOST], far = 0.0,
+           near = 0.0;
     for (int k = 0; k < s->n; k++)
         du[k] = 1e-3 * s->z[k];
-    lanes_element_pressure(el, u, zero, p0);
-    lanes_element_pressure(el, u, du, p1);
+    lanes_element_mixed(el, u, zero, p0);
+    lanes_element_tangent(el, u, p0, same);
+    near_array("mixed tangent with the stresses of its place", same, K, s->n * s->n, 1e-13);
+    lanes_element_mixed(el, u, du, p1);
     for (int k = 0; k < s->n; k++)
         u[k] += du[k];
-    lanes_element_pressure(el, u, zero, exact);
-    for (int q = 0; q < s->type->nq; q++) {
+    lanes_element_mixed(el, u, zero, exact);
+    for (int q = 0; q < PM_MIXED * s->type->nq; q++) {
         near = fmax(near, fabs(p1[q] - exact[q]));
         far = fmax(far, fabs(p0[q] - exact[q]));
     }
-    ok(near < 0.05 * far, "linearised pressure is second order: %.2e against %.2e", near, far);
+    ok(near < 0.05 * far, "linearised stresses are second order: %.2e against %.2e", near, far);
 }
 
 static void check(struct setting *s, const char *law, const char *element)
@@ -98,7 +104,7 @@ static void check(struct setting *s, const char *law, const char *element)
     near_rel("forces", dot(s->n, f, s->z), difference(s, 0, 0, s->z), tolerance);
     lanes_element_apply(&el, u, s->z, Kv);
     near_rel("K v", dot(s->n, Kv, s->v), difference(s, 1, 0, s->z), tolerance);
-    lanes_element_tangent(&el, u, K);
+    lanes_element_tangent(&el, u, NULL, K);
     for (int k = 0; k < s->n * s->n; k++)
         Kv2[k / s->n] += K[k] * s->z[k % s->n];
     near_array("assembled K", Kv2, Kv, s->n, 1e-13);
@@ -108,7 +114,7 @@ static void check(struct setting *s, const char *law, const char *element)
     near_rel("shape of v.f", dot(s->n, D, s->z), difference(s, 1, 1, s->z), tolerance);
     lanes_element_shape(&el, u, zero, 1, s->v, s->w, D);
     near_rel("shape of v.K w", dot(s->n, D, s->z), difference(s, 2, 1, s->z), tolerance);
-    pressures(s, &el, u);
+    mixed(s, &el, u, K);
 }
 
 int main(void)

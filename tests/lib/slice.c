@@ -225,7 +225,7 @@ static enum pm_status balance(const struct slice *s, struct pm_model *m, const s
         if (norm <= l->tolerance * first || norm == 0)
             goto done;
         PM_TRY(pm_model_factor(m, c, &l->p, f, NULL, &definite, err));
-        PM_TRY(pm_model_solve(m, g, 1, err));
+        PM_TRY(pm_model_solve(m, g, 1, 1e-12, err));
         pm_model_move(m, c, g, 1.0, c);
     }
     status = pm_fail(err, PM_NUMERIC, "no convergence at p = %g, traction = %g", l->p, l->traction);

@@ -88,9 +88,8 @@ enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m,
         status = PM_NUMERIC;
         if (!good)
             continue;
-        status = pm_equilibrium(m, p, &options,
-                                &(struct pm_guess){.at = g.at, .pressure = g.pressure, .only = 1},
-                                c, volume, f, r, &why);
+        status = pm_equilibrium(m, p, &options, &(struct pm_guess){.at = g.at, .mixed = g.mixed}, c,
+                                volume, f, r, &why);
         if (status != PM_OK) {
             spent.factorisations += r->factorisations;
             spent.backoffs += r->backoffs + 1;

@@ -68,7 +68,7 @@ void guess_release(struct guess *g)
 {
     pm_state_release(&g->from);
     pm_free(g->at);
-    pm_free(g->pressure);
+    pm_free(g->mixed);
     *g = (struct guess){.usable = 0};
 }
 
@@ -79,11 +79,11 @@ static enum pm_status carry(struct guess *g, const struct pm_model *m, const str
     enum pm_status status;
     double *still = NULL, *u = NULL;
 
-    pm_free(g->pressure);
-    PM_TRY(pm_model_pressure_new(m, &g->pressure, err));
+    pm_free(g->mixed);
+    PM_TRY(pm_model_mixed_new(m, &g->mixed, err));
     PM_TRY(PM_NEW(still, 3 * m->nn, err));
     PM_TRY(PM_NEW(u, 3 * b->nn, err));
-    pm_model_pressure(m, c, still, g->pressure);
+    pm_model_mixed(m, c, still, g->mixed);
     PM_TRY(pm_advect(m->mesh, c->u, b, u, err));
     memcpy(c->u, u, 3 * (size_t)b->nn * sizeof *u);
 done:
@@ -105,9 +105,8 @@ static enum pm_status settle(struct guess *g, struct pm_model *m, struct pm_conf
     options.tolerance = 1e-3; /* a way station */
     PM_TRY(PM_NEW(f, 3 * m->mesh->nn, err));
     PM_TRY(PM_NEW(volume, m->mesh->nc, err));
-    status = pm_equilibrium(m, g->at, &options,
-                            &(struct pm_guess){.at = g->at, .pressure = g->pressure, .only = 1}, c,
-                            volume, f, &part, &why);
+    status = pm_equilibrium(m, g->at, &options, &(struct pm_guess){.at = g->at, .mixed = g->mixed},
+                            c, volume, f, &part, &why);
     r->newton_steps += part.newton_steps;
     r->factorisations += part.factorisations;
     r->backoffs += part.backoffs;

@@ -7,8 +7,8 @@
 
 struct guess {
     struct pm_state from;
-    double *at;         /* its pressures (nc) [MPa] */
-    pm_lanes *pressure; /* of the elements where it was carried to [MPa] */
+    double *at;      /* its pressures (nc) [MPa] */
+    pm_lanes *mixed; /* of the elements where it was carried to [MPa] */
     int usable;
     int same_shape;
 };
@@ -19,7 +19,7 @@ enum pm_status guess_choose(const char *const *paths, const struct pm_mesh *mesh
                             struct guess *g, struct pm_err *err);
 void guess_release(struct guess *g);
 /* c = the guess carried to the shape of `mesh` (advect.h) in `parts` equal parts of the change,
- * with an equilibrium at the loads of the guess after each but the last, and g->pressure; *good = 0
+ * with an equilibrium at the loads of the guess after each but the last, and g->mixed; *good = 0
  * where one of those fails. The counts of r grow by theirs. */
 enum pm_status guess_carry(struct guess *g, const struct pm_mesh *mesh, int parts,
                            struct pm_config *c, int *good, struct pm_solve_report *r,

@@ -127,7 +127,7 @@ static void walk_release(struct walk *w)
 static enum pm_status step(struct walk *w, struct pm_solve_report *r, struct pm_err *err)
 {
     struct pm_solve_options options = pm_solve_default;
-    const struct pm_guess guess = {.at = w->at, .only = 1};
+    const struct pm_guess guess = {.at = w->at};
     int loaded = 0;
     for (ptrdiff_t k = 0; k < w->s.mesh.nc; k++)
         loaded |= w->p[k] != 0.0;
