@@ -42,7 +42,7 @@ both() {
 check "CalculiX is installed (deps.sh)" command -v ccx
 
 check "finger: surfaces" "$BIN/surfgen" -q tests/data/finger.ini -o "$work/s.h5"
-check "finger: mesh" "$BIN/tetmesh" -q "$work/s.h5" -o "$work/finger-mesh.h5"
+check "finger: mesh" "$BIN/tetmesh" -q --size 6 "$work/s.h5" -o "$work/finger-mesh.h5"
 finger=$work/finger-mesh.h5
 both "$quadrature" "$finger" tet10 0.15 finger
 both "$digits" "$finger" tet4 0.3 finger-tet4
