@@ -116,8 +116,8 @@ make_table() {
             for (i = 1; i <= NR; i++) {
                 $0 = row[i]; key = $1 "+" $5 "+" $6
                 dx = $11 - x[key]; dz = $13 - z[key]
-                length = sqrt(x[key] ^ 2 + z[key] ^ 2)
-                e = length > 0 ? sprintf("%.2f", 100 * sqrt(dx * dx + dz * dz) / length) : "-"
+                size = sqrt(x[key] ^ 2 + z[key] ^ 2)
+                e = size > 0 ? sprintf("%.2f", 100 * sqrt(dx * dx + dz * dz) / size) : "-"
                 print $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, sprintf("%.4f", $11), sprintf("%.4f", $13),
                     sprintf("%.5f", $15), sprintf("%.2f", $17 - $18), error($11, x[key]), error($13, z[key]),
                     error($15, t[key]), error($17 - $18, v[key]), e
