@@ -8,7 +8,8 @@ ACCURACY_RUN ?= run/accuracy
 ACCURACY_ELEMENTS ?= tet10-blend tet10 tet10-mean tet15 tet4
 # The wall of the bellows is 2.5 mm.
 ACCURACY_SIZES ?= 2.5 1.75 1.25
-ACCURACY_FINE ?= 0.83
+ACCURACY_FINE_q ?= 0.83
+ACCURACY_FINE_h ?= 1
 A := $(ACCURACY_RUN)
 ACCURACY = BIN='$B/bin' LIB='$B/tests/lib' PRESSURE=0.12 ELEMENTS='$(ACCURACY_ELEMENTS)' pipelines/accuracy.sh
 ACCURACY_TOOLS := $(addprefix $B/bin/,tetmesh fesolve) $(addprefix $B/tests/lib/,thick_sphere slice pressure_noise)
@@ -20,11 +21,11 @@ ACCURACY_ROWS := \
 	$(foreach b,q h,$(call on,$b,$(ACCURACY_SIZES),curved,$(ACCURACY_CURVED),100,neo-hookean) \
 	$(call on,$b,$(ACCURACY_SIZES),straight,tet10 tet10-blend,100,neo-hookean) \
 	$(call on,$b,$(ACCURACY_SIZES),linear,tet4,100,neo-hookean) \
-	$(call on,$b,$(ACCURACY_FINE),fine,tet15 tet10-blend,100,neo-hookean)) \
+	$(call on,$b,$(ACCURACY_FINE_$b),fine,tet15 tet10-blend,100,neo-hookean)) \
 	$(foreach k,10 1000,$(call on,q,$(ACCURACY_SIZES),curved,$(ACCURACY_CURVED),$k,neo-hookean) \
-	$(call on,q,$(ACCURACY_FINE),fine,tet15,$k,neo-hookean)) \
+	$(call on,q,$(ACCURACY_FINE_q),fine,tet15,$k,neo-hookean)) \
 	$(foreach l,mooney-rivlin yeoh ogden,$(call on,q,2.5 1.25,curved,tet10-blend tet10,100,$l) \
-	$(call on,q,$(ACCURACY_FINE),fine,tet15,100,$l))
+	$(call on,q,$(ACCURACY_FINE_q),fine,tet15,100,$l))
 ACCURACY_ROWS := $(ACCURACY_ROWS:%=$A/%.row)
 ACCURACY_ROUNDS := $(patsubst %,$A/round-%.tsv,10 100 1000)
 

@@ -8,6 +8,7 @@ set grid lc rgb '#dddddd'
 set border 3
 set tics nomirror
 set logscale xy
+set xrange [0.02:100]
 set format y '%g %%'
 set xlabel 'CPU time of a solution from zero to p = 0.12 mu, one thread [s]'
 set multiplot layout 1,2
