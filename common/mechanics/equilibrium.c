@@ -18,7 +18,8 @@ const struct pm_solve_options pm_solve_default = {.tolerance = 1e-8,
 /* Tolerance of load steps on the way: they only have to stay on the path. After a refusal the base
  * of the step is made better than that. */
 static const double path_tolerance = 1e-1, polished = 1e-3;
-/* A predictor with a residual of more loads than this times kappa/mu is shortened. */
+/* A predictor with a residual of more loads than this times kappa/mu is shortened; after a refusal
+ * the limit is half of what was refused. */
 static const double long_residual = 3.0;
 
 /* Pressures from (1 - lambda) + to lambda (nc) [MPa], and the derivatives of the path by lambda at
@@ -26,6 +27,8 @@ static const double long_residual = 3.0;
 struct path {
     const double *from, *to;
     double first_step;
+    double longest;        /* residual of a predictor beyond which it is shortened */
+    double predicted;      /* that of the last one */
     double *dp;            /* to - from (nc) */
     double *du1, *du2;     /* nodal fields (nn x 3) */
     double *step1, *step2; /* their parts of a load step (nn x 3) */
@@ -86,14 +89,14 @@ static enum pm_status load_step(struct pm_newton *s, struct path *path, double l
                                 struct pm_config *c, int *reached, struct pm_err *err)
 {
     enum pm_status status;
-    double too_long = long_residual * s->m->law.kappa / s->m->law.mu;
     PM_TRY(predictor(s, path, lambda, *h, c, err));
-    while (s->residual > too_long && *h > s->o->min_step) {
-        *h *= fmax(0.25, 0.9 * cbrt(too_long / s->residual));
+    while (s->residual > path->longest && *h > s->o->min_step) {
+        *h *= fmax(0.25, 0.9 * cbrt(path->longest / s->residual));
         PM_TRY(predictor(s, path, lambda, *h, c, err));
     }
     double next = lambda + *h > 1.0 - 1e-9 ? 1.0 : lambda + *h;
     s->r->lambda = next;
+    path->predicted = s->residual;
     pm_log(2, "load %.4f: predicted, residual %.2e", next, s->residual);
     pm_model_mixed(s->m, &path->base, path->step1, s->mixed);
     status = pm_newton_solve(s, c, next < 1.0 ? path_tolerance : s->o->tolerance, 1, reached, err);
@@ -166,6 +169,7 @@ static enum pm_status follow(struct pm_newton *s, struct path *path, struct pm_c
     double lambda = 0.0, step = path->first_step;
     int rough = 0;
     PM_TRY(path_new(s, path, c, err));
+    path->longest = long_residual * s->m->law.kappa / s->m->law.mu;
     PM_TRY(predict(s, path, lambda, reached, err));
     while (lambda < 1.0 && *reached && step >= s->o->min_step) {
         long before = s->r->newton_steps;
@@ -174,6 +178,7 @@ static enum pm_status follow(struct pm_newton *s, struct path *path, struct pm_c
         if (!*reached) {
             s->r->backoffs++;
             step *= 0.5;
+            path->longest = fmin(path->longest, 0.5 * path->predicted);
             *reached = 1;
             if (rough)
                 PM_TRY(polish(s, path, lambda, reached, err));
