@@ -2,12 +2,13 @@
 # bench.sh fesolve MESH.h5 ELEMENT ROW | calculix MESH.h5 JOB.dat | compare STATE.h5 JOB.dat ROW | table ROW.. | report TABLE
 # The measurements of bench.mk: CPU seconds (user and system) of one thread, from zero to PRESSURE. A row: name, unknowns,
 # elements, factorisations (CalculiX: iterations, each factors), CPU seconds, of them those until CalculiX would have
-# stopped by itself, the pose, and for CalculiX its distance from fesolve's.
+# stopped by itself, the pose, for CalculiX its distance from fesolve's, for fesolve the entries of the factor, the
+# operations of a factorisation in 1e9, and those of all factorisations over all CPU seconds in 1e9/s.
 set -eu
 . pipelines/measure.sh
 
 measure_fesolve() {
-    local mesh=$1 element=$2 row=$3 state=${3%.row}.h5 log=${3%.row}.log seconds first unknowns i
+    local mesh=$1 element=$2 row=$3 state=${3%.row}.h5 log=${3%.row}.log seconds first unknowns factorisations factor i
     : >"$log"
     first=$(cpu "$BIN/fesolve" -v --element "$element" --pressure "$PRESSURE" "$mesh" -o "$state")
     seconds=$first
@@ -20,8 +21,11 @@ measure_fesolve() {
         } | sort -n | awk '{ s[NR] = $1 } END { print s[int((NR + 1) / 2)] }')
     fi
     unknowns=$(sed -n 's/^fesolve: \([0-9]*\) unknowns.*/\1/p' "$log" | tail -n 1)
-    printf 'fesolve %s\t%s\t%s\t%s\t%s\t%s\t%s\t-\t-\n' "$element" "$unknowns" "$(tetrahedra "$mesh")" \
-        "$(item /solve/factorisations "$state")" "$seconds" "$seconds" "$(item /tip/U "$state")" >"$row.part"
+    factorisations=$(item /solve/factorisations "$state")
+    factor=$(awk -v n="$factorisations" -v s="$seconds" '/^fesolve: factor: / { entries = $3; flops = $5 }
+        END { printf "%.3g\t%.3g\t%.2f", entries, flops / 1e9, n * flops / 1e9 / s }' "$log")
+    printf 'fesolve %s\t%s\t%s\t%s\t%s\t%s\t%s\t-\t-\t%s\n' "$element" "$unknowns" "$(tetrahedra "$mesh")" \
+        "$factorisations" "$seconds" "$seconds" "$(item /tip/U "$state")" "$factor" >"$row.part"
     mv "$row.part" "$row"
 }
 
@@ -47,13 +51,13 @@ write_comparison() {
         END {
             split(first, f, "\t")
             print "CalculiX C3D10", f[2], f[3], all, seconds, sprintf("%.2f", seconds * load / all), there["U1"], there["U2"], there["U3"],
-                there["U4"], there["U5"], there["U6"], off["translation"], off["rotation"]
+                there["U4"], there["U5"], there["U6"], off["translation"], off["rotation"], "-", "-", "-"
         }' "$folder/job.sta" "$folder/compare.tsv" >"$row.part"
     mv "$row.part" "$row"
 }
 
 table() {
-    printf 'solver\tunknowns\telements\tfactorisations\tcpu_s\tcpu_s_default_stop\tU1\tU2\tU3\tU4\tU5\tU6\ttranslation_off\trotation_off\n'
+    printf 'solver\tunknowns\telements\tfactorisations\tcpu_s\tcpu_s_default_stop\tU1\tU2\tU3\tU4\tU5\tU6\ttranslation_off\trotation_off\tfactor_entries\tfactor_gflop\tgflop_per_s\n'
     cat "$@" | sort -t "$(printf '\t')" -k 1,1 -k 2,2n
 }
 

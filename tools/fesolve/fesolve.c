@@ -116,6 +116,7 @@ done:
 static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, struct pm_err *err)
 {
     enum pm_status status;
+    double entries, flops;
     ptrdiff_t nc = s->mesh.nc;
     struct pm_model *m = NULL;
     struct pm_config c = {0};
@@ -151,6 +152,8 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
            "residual %.1e",
            m->nq, r.load_steps, r.newton_steps, r.factorisations, r.backoffs,
            r.warm ? ", warm" : "", r.residual);
+    pm_cholesky_size(m->factor, &entries, &flops);
+    pm_log(1, "factor: %.3e entries, %.3e operations", entries, flops);
     pm_log(1, "U = %.6f %.6f %.6f mm, %.6f %.6f %.6f rad; smallest det F %.3f", s->U[0], s->U[1],
            s->U[2], s->U[3], s->U[4], s->U[5], s->min_det_F);
     PM_TRY(pm_contact_find(&s->mesh, s->u, &s->contact, err));
