@@ -81,10 +81,9 @@ enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m,
     PM_TRY(pm_config_new(m, &undeformed, err));
     PM_TRY(guess_choose(o->guess, m->mesh, p, &g, err));
     status = PM_NUMERIC;
-    for (int parts = 1; status == PM_NUMERIC && g.usable && parts <= (g.same_shape ? 1 : 4);
-         parts *= 2) {
+    for (int parts = 1; status == PM_NUMERIC && g.usable && parts <= g.parts; parts *= 2) {
         struct pm_err why = {0};
-        PM_TRY(guess_carry(&g, m->mesh, parts, c, &good, &spent, err));
+        PM_TRY(guess_carry(&g, m, parts, c, &good, &spent, err));
         status = PM_NUMERIC;
         if (!good)
             continue;

@@ -1,4 +1,4 @@
-/* An equilibrium of a neighbouring shape (the same connectivity) or load as a first guess. */
+/* An equilibrium of another load, a neighbouring shape or another mesh as a first guess. */
 #ifndef PM_FESOLVE_GUESS_H
 #define PM_FESOLVE_GUESS_H
 
@@ -10,18 +10,20 @@ struct guess {
     double *at;      /* its pressures (nc) [MPa] */
     pm_lanes *mixed; /* of the elements where it was carried to [MPa] */
     int usable;
-    int same_shape;
+    int same_shape, same_mesh;
+    int parts; /* most parts that a change of shape is worth: 1 unless the mesh is the same */
 };
 
 /* The one of the files (ends with NULL) whose pressures are nearest to p (nc) [MPa]; usable = 0,
- * with warnings, where all record a failure or another connectivity. */
+ * with warnings, where all record a failure or have other chambers. */
 enum pm_status guess_choose(const char *const *paths, const struct pm_mesh *mesh, const double *p,
                             struct guess *g, struct pm_err *err);
 void guess_release(struct guess *g);
-/* c = the guess carried to the shape of `mesh` (advect.h) in `parts` equal parts of the change,
- * with an equilibrium at the loads of the guess after each but the last, and g->mixed; *good = 0
- * where one of those fails. The counts of r grow by theirs. */
-enum pm_status guess_carry(struct guess *g, const struct pm_mesh *mesh, int parts,
+/* c = the guess carried to the mesh of m. The same connectivity: advect.h, in `parts` equal parts
+ * of the change, with an equilibrium at the loads of the guess after each but the last, and
+ * g->mixed; another one: transfer.h and relax.h, no g->mixed. *good = 0 where that fails. The
+ * counts of r grow by theirs. */
+enum pm_status guess_carry(struct guess *g, const struct pm_model *model, int parts,
                            struct pm_config *c, int *good, struct pm_solve_report *r,
                            struct pm_err *err);
 

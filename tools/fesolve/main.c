@@ -8,7 +8,7 @@ static const struct pm_option options[] = {
     {"pressure", 'p', "P1,P2,..", "solve at these chamber pressures, as ratios p/mu"},
     {"path", 'P', "FILE", "solve at the pressures of FILE, one point a line, each from the last"},
     {"guess", 'g', "STATE.h5",
-     "start from this state of the same connectivity; repeated: the nearest in pressure"},
+     "start from this state, also of another mesh; repeated: the nearest in pressure"},
     {"element", 'e', "NAME",
      "tet10-blend (default; of a linear mesh tet4), tet10, tet10-mean, tet4 or tet15"},
     {"material", 0, "NAME", "another material than the mesh says: a preset of pneumorph-case(5)"},
