@@ -8,7 +8,8 @@ set grid lc rgb '#dddddd'
 set border 3
 set tics nomirror
 set logscale xy
-set xrange [0.02:100]
+set xrange [0.05:300]
+set yrange [0.1:100]
 set format y '%g %%'
 set xlabel 'CPU time of a solution from zero to p = 0.12 mu, one thread [s]'
 set multiplot layout 1,2
@@ -17,7 +18,7 @@ error(b, e, k) = is(b, e, k) ? column('e_pose') : NaN
 do for [b in 'q h'] {
     set title b eq 'q' ? 'symmetric bellows: elongation' : 'bellows that bends: tip translation'
     set ylabel 'error of the tip translation'
-    set key bottom left opaque
+    set key top right opaque
     plot ARG1 using 'cpu_s':(error(b, 'tet4', 'linear')) with linespoints lw 2 pt 8 ps 1.3 lc rgb '#7f8c8d' title 'tet4', \
          ARG1 using 'cpu_s':(error(b, 'tet10', 'straight')) with linespoints lw 2 dt 2 pt 6 ps 1.3 lc rgb '#c0392b' title 'tet10, straight edges', \
          ARG1 using 'cpu_s':(error(b, 'tet10', 'curved')) with linespoints lw 2 pt 7 ps 1.3 lc rgb '#c0392b' title 'tet10', \
