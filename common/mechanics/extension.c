@@ -73,7 +73,9 @@ enum pm_status pm_extension_new(const struct pm_mesh *m, struct pm_extension **o
     memset(interior, 1, (size_t)m->nn);
     for (ptrdiff_t k = 0; k < 6 * m->nf; k++)
         interior[m->tri[k]] = 0;
-    PM_TRY(pm_pattern_new(m->nn, m->ne, 10, m->tet, interior, NULL, 1, 0, &e->pattern, err));
+    PM_TRY(pm_pattern_new(
+        &(struct pm_pattern_source){m->nn, m->ne, 10, m->tet, interior, NULL, 1, 0, NULL},
+        &e->pattern, err));
     PM_TRY(PM_NEW(e->rhs, 3 * e->pattern.n, err));
     if (e->pattern.n > 0)
         PM_TRY(factor_laplace(e, err));

@@ -48,7 +48,8 @@ static enum pm_status build_pattern(struct pm_model *m, struct pm_err *err)
         for (ptrdiff_t a = 0; a < npe && tip; a++)
             couples[t[a]] = 1;
     }
-    PM_TRY(pm_pattern_new(m->nn, m->space.ne, npe, m->space.tet, use, couples, 3, m->tail,
+    PM_TRY(pm_pattern_new(&(struct pm_pattern_source){m->nn, m->space.ne, npe, m->space.tet, use,
+                                                      couples, 3, m->tail, NULL},
                           &m->pattern, err));
     m->nq = m->pattern.n;
     PM_TRY(PM_NEW(m->fixed, m->nq, err));

@@ -112,30 +112,54 @@ done:
     return status;
 }
 
-enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, ptrdiff_t npe, const int32_t *tet,
-                              const uint8_t *use, const uint8_t *couples, ptrdiff_t bs,
-                              ptrdiff_t tail, struct pm_pattern *p, struct pm_err *err)
+/* Nodes at their places: those of `like` in its order, then the others. */
+static enum pm_status order_like(const struct pm_pattern_source *from, const ptrdiff_t *index,
+                                 ptrdiff_t n, ptrdiff_t *node, struct pm_err *err)
+{
+    enum pm_status status;
+    const struct pm_pattern *like = from->like;
+    ptrdiff_t *at = NULL, k = 0; /* node at a place of `like`, + 1 */
+    PM_TRY(PM_NEW(at, like->nodes, err));
+    for (ptrdiff_t a = 0; a < from->nn; a++)
+        if (like->eq[a] >= 0)
+            at[like->eq[a]] = a + 1;
+    for (ptrdiff_t i = 0; i < like->nodes; i++)
+        if (at[i] > 0 && index[at[i] - 1] >= 0)
+            node[k++] = index[at[i] - 1];
+    for (ptrdiff_t a = 0; a < from->nn && k < n; a++)
+        if (index[a] >= 0 && like->eq[a] < 0)
+            node[k++] = index[a];
+done:
+    pm_free(at);
+    return status;
+}
+
+enum pm_status pm_pattern_new(const struct pm_pattern_source *from, struct pm_pattern *p,
+                              struct pm_err *err)
 {
     enum pm_status status;
     ptrdiff_t *ptr = NULL, *adj = NULL, *node = NULL, *place = NULL;
     uint8_t *coupled = NULL;
-    *p = (struct pm_pattern){.bs = bs, .tail = tail};
-    PM_TRY(PM_NEW(p->eq, nn, err));
-    for (ptrdiff_t a = 0; a < nn; a++)
-        p->eq[a] = use[a] ? p->nodes++ : -1;
-    p->n = bs * p->nodes + tail;
-    PM_TRY(adjacency(ne, npe, tet, p->eq, p->nodes, &ptr, &adj, err));
+    *p = (struct pm_pattern){.bs = from->bs, .tail = from->tail};
+    PM_TRY(PM_NEW(p->eq, from->nn, err));
+    for (ptrdiff_t a = 0; a < from->nn; a++)
+        p->eq[a] = from->use[a] ? p->nodes++ : -1;
+    p->n = p->bs * p->nodes + p->tail;
+    PM_TRY(adjacency(from->ne, from->npe, from->tet, p->eq, p->nodes, &ptr, &adj, err));
     PM_TRY(PM_NEW(node, p->nodes, err));
     PM_TRY(PM_NEW(place, p->nodes, err));
     PM_TRY(PM_NEW(coupled, p->nodes, err));
-    PM_TRY(pm_order_nodes(p->nodes, ptr, adj, node, err));
+    if (from->like != NULL)
+        PM_TRY(order_like(from, p->eq, p->nodes, node, err));
+    else
+        PM_TRY(pm_order_nodes(p->nodes, ptr, adj, node, err));
     for (ptrdiff_t k = 0; k < p->nodes; k++)
         place[node[k]] = k;
     PM_TRY(lower_lists(p, ptr, adj, node, place, err));
-    for (ptrdiff_t a = 0; a < nn; a++)
+    for (ptrdiff_t a = 0; a < from->nn; a++)
         if (p->eq[a] >= 0) {
             p->eq[a] = place[p->eq[a]];
-            coupled[p->eq[a]] = couples != NULL && couples[a];
+            coupled[p->eq[a]] = from->couples != NULL && from->couples[a];
         }
     PM_TRY(columns(p, coupled, err));
 done:

@@ -19,11 +19,19 @@ struct pm_pattern {
     ptrdiff_t *row;
 };
 
-/* ne elements of npe nodes. use[a] != 0: node a has equations; couples[a] != 0: node a is coupled
- * with the tail (may be NULL). */
-enum pm_status pm_pattern_new(ptrdiff_t nn, ptrdiff_t ne, ptrdiff_t npe, const int32_t *tet,
-                              const uint8_t *use, const uint8_t *couples, ptrdiff_t bs,
-                              ptrdiff_t tail, struct pm_pattern *p, struct pm_err *err);
+/* What a pattern is made of. */
+struct pm_pattern_source {
+    ptrdiff_t nn, ne, npe;
+    const int32_t *tet;     /* node ids of the elements (ne x npe) */
+    const uint8_t *use;     /* 1: the node has equations (nn) */
+    const uint8_t *couples; /* 1: it is coupled with the tail (nn), NULL: none is */
+    ptrdiff_t bs, tail;
+    const struct pm_pattern
+        *like; /* its elimination order, further nodes last; NULL: a new order */
+};
+
+enum pm_status pm_pattern_new(const struct pm_pattern_source *from, struct pm_pattern *p,
+                              struct pm_err *err);
 /* Index in the values of entry (row component 0 of place i, column component 0 of place j), i >= j;
  * the block entry (d, c) is at  result of column c  + d:  pm_pattern_block(p, i, j, c) + d. */
 ptrdiff_t pm_pattern_block(const struct pm_pattern *p, ptrdiff_t i, ptrdiff_t j, ptrdiff_t c);

@@ -15,6 +15,52 @@ struct pm_cholesky {
     cholmod_dense *x, *y, *e; /* workspaces of cholmod_l_solve2 */
 };
 
+/* The indices stay ours and are only read, but cholmod has no const. */
+static void *borrow(const void *p)
+{
+    union {
+        const void *c;
+        void *m;
+    } u = {.c = p};
+    return u.m;
+}
+
+/* perm followed by a postorder of its elimination tree: children before parents, subtrees together,
+ * as supernodes want them. */
+static enum pm_status postorder(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *adj,
+                                ptrdiff_t *perm, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    cholmod_common cm;
+    cholmod_factor *tree;
+    cholmod_l_start(&cm);
+    cm.print = 0;
+    cm.supernodal = CHOLMOD_SIMPLICIAL;
+    cm.nmethods = 1;
+    cm.method[0].ordering = CHOLMOD_GIVEN;
+    cm.postorder = 1;
+    cholmod_sparse graph = {.nrow = (size_t)n,
+                            .ncol = (size_t)n,
+                            .nzmax = (size_t)ptr[n],
+                            .p = borrow(ptr),
+                            .i = borrow(adj),
+                            .stype = -1,
+                            .itype = CHOLMOD_LONG,
+                            .xtype = CHOLMOD_PATTERN,
+                            .dtype = CHOLMOD_DOUBLE,
+                            .sorted = 1,
+                            .packed = 1};
+    tree = cholmod_l_analyze_p(&graph, perm, NULL, 0, &cm);
+    if (tree == NULL)
+        status = pm_fail(err, PM_SYSTEM, "CHOLMOD cannot order a graph of %td nodes (status %d)", n,
+                         cm.status);
+    else
+        memcpy(perm, tree->Perm, (size_t)n * sizeof *perm);
+    cholmod_l_free_factor(&tree, &cm);
+    cholmod_l_finish(&cm);
+    return status;
+}
+
 enum pm_status pm_order_nodes(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *adj,
                               ptrdiff_t *perm, struct pm_err *err)
 {
@@ -39,22 +85,13 @@ enum pm_status pm_order_nodes(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t
     }
     for (ptrdiff_t i = 0; i < n; i++)
         perm[i] = p[i];
+    PM_TRY(postorder(n, ptr, adj, perm, err));
 done:
     pm_free(xadj);
     pm_free(list);
     pm_free(p);
     pm_free(ip);
     return status;
-}
-
-/* The indices stay ours and are only read, but cholmod has no const. */
-static void *borrow(const void *p)
-{
-    union {
-        const void *c;
-        void *m;
-    } u = {.c = p};
-    return u.m;
 }
 
 enum pm_status pm_cholesky_new(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *row,
@@ -71,7 +108,7 @@ enum pm_status pm_cholesky_new(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_
     cm->final_ll = 1;
     cm->nmethods = 1;
     cm->method[0].ordering = CHOLMOD_NATURAL;
-    cm->postorder = 1;
+    cm->postorder = 0; /* it is one: no copy of the matrix at each factorisation */
     c->matrix = (cholmod_sparse){.nrow = (size_t)n,
                                  .ncol = (size_t)n,
                                  .nzmax = (size_t)ptr[n],

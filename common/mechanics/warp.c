@@ -86,8 +86,9 @@ static enum pm_status laplacian_new(const struct pm_warp *w, int tip_free, struc
         int32_t a = m->space.tet[k];
         use[a] = m->kind[a] == PM_NODE_FREE || (tip_free && m->kind[a] == PM_NODE_TIP);
     }
-    PM_TRY(
-        pm_pattern_new(m->nn, m->space.ne, npe, m->space.tet, use, NULL, 1, 0, &l->pattern, err));
+    PM_TRY(pm_pattern_new(&(struct pm_pattern_source){m->nn, m->space.ne, npe, m->space.tet, use,
+                                                      NULL, 1, 0, &m->pattern},
+                          &l->pattern, err));
     PM_TRY(PM_NEW(value, l->pattern.ptr[l->pattern.n], err));
     for (ptrdiff_t axis = 0; axis < w->axes; axis++) {
         assemble(w, l, axis, value);
