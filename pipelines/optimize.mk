@@ -62,9 +62,9 @@ else
 SURF := $(PREV)/step.h5
 endif
 
-# A reconstructed surface has new control points: nothing of an earlier mesh fits it.
+# A reconstructed surface has new control points: no earlier mesh can be morphed to it.
 PREVIOUS_MESH = $(if $(FIRST)$(REMESH),,--previous $(LAST)/mesh.h5)
-GUESS = $(if $(FIRST)$(REMESH),,--guess $(LAST)/$(@F))
+GUESS = $(if $(FIRST),,--guess $(LAST)/$(@F))
 PREVIOUS_STEP = $(if $(FIRST),,--previous $(PREV)/step.h5)
 SIGN = $(if $(FIRST),,--sign-from $(RUN)/it000/work.h5)
 

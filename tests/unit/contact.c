@@ -52,7 +52,7 @@ static void check_soup(struct pm_err *err)
     for (uint32_t seed = 1; seed <= 3; seed++)
         for (int parts = 1; parts <= 4; parts += 3) {
             struct pm_boxes *boxes = NULL;
-            struct pm_contact c;
+            struct pm_contact c = {.pairs = -1};
             make_soup(seed, x, tri);
             const ptrdiff_t want = brute_pairs(x, tri, parts, err);
             enum pm_status status = pm_collide_boxes(x, SOUP, tri, NULL, &boxes, err);
@@ -190,11 +190,12 @@ static void check_sphere(struct pm_err *err)
     struct pm_mesh m = {.npf = 3, .npe = 4};
     struct pm_self_contact c;
     double *u = NULL;
-    if (!ok(robot_icosphere(3, &s, err) == PM_OK && PM_NEW(m.x, 6 * s.n, err) == PM_OK &&
-                PM_NEW(m.tri, 6 * s.nt, err) == PM_OK &&
-                PM_NEW(m.tri_tag, 2 * s.nt, err) == PM_OK && PM_NEW(u, 6 * s.n, err) == PM_OK,
-            "sphere"))
+    if (robot_icosphere(3, &s, err) != PM_OK || PM_NEW(m.x, 6 * s.n, err) != PM_OK ||
+        PM_NEW(m.tri, 6 * s.nt, err) != PM_OK || PM_NEW(m.tri_tag, 2 * s.nt, err) != PM_OK ||
+        PM_NEW(u, 6 * s.n, err) != PM_OK) {
+        ok(0, "%s", err->text);
         return;
+    }
     m.nn = 2 * s.n;
     m.nf = 2 * s.nt;
     for (ptrdiff_t i = 0; i < 3 * s.n; i++) {
