@@ -142,6 +142,7 @@ enum pm_status pm_model_new(const struct pm_mesh *mesh, const char *element, str
     if (m == NULL)
         return PM_SYSTEM;
     const struct pm_element_type *type;
+    clock_t start = clock();
     m->mesh = mesh;
     PM_TRY(pm_element_type(element, mesh, &type, err));
     PM_TRY(pm_space_new(mesh, type, &m->space, err));
@@ -156,6 +157,7 @@ enum pm_status pm_model_new(const struct pm_mesh *mesh, const char *element, str
     PM_TRY(find_slots(m, err));
     fix_symmetry(m);
     PM_TRY(pm_cholesky_new(m->nq, m->pattern.ptr, m->pattern.row, &m->factor, err));
+    pm_cost_add(&m->cost.order, start);
     *out = m;
     m = NULL;
 done:
@@ -179,6 +181,11 @@ void pm_model_free(struct pm_model *m)
     pm_free(m->arm);
     pm_free(m->value);
     pm_free(m);
+}
+
+void pm_cost_add(double *cost, clock_t start)
+{
+    *cost += (double)(clock() - start) / CLOCKS_PER_SEC;
 }
 
 /* ---- configurations and maps ---- */

@@ -7,6 +7,8 @@
 #ifndef PM_MODEL_H
 #define PM_MODEL_H
 
+#include <time.h>
+
 #include "common/files/mesh.h"
 #include "common/mechanics/cavity.h"
 #include "common/mechanics/element.h"
@@ -15,6 +17,11 @@
 #include "common/mechanics/sparse.h"
 
 enum { PM_NODE_FREE = 0, PM_NODE_CLAMPED = 1, PM_NODE_TIP = 2 };
+
+/* CPU seconds of this process by kind of work. */
+struct pm_cost {
+    double order, assemble, factor, solve, warp;
+};
 
 struct pm_model {
     const struct pm_mesh *mesh; /* borrowed */
@@ -40,6 +47,7 @@ struct pm_model {
     int factored; /* the factor is one of a positive definite tangent: 1 that of `value`, 2 an older
                      one, 0 none */
     long factorisations, solves; /* solves: with the factor, of all columns together */
+    struct pm_cost cost;
 };
 
 /* Block (a, b) of an element: values[at + c * height + d] holds its component (d, c), or (c, d)
@@ -135,6 +143,8 @@ void pm_model_gather(const struct pm_model *m, ptrdiff_t b, const double *nodal,
 int pm_model_lanes(const struct pm_model *m, ptrdiff_t b);
 /* Chamber of boundary face f, 0-based, or -1. */
 ptrdiff_t pm_model_chamber(const struct pm_model *m, ptrdiff_t f);
+/* Adds the CPU time since `start` (of clock()) to one of the costs. */
+void pm_cost_add(double *cost, clock_t start);
 /* Values of a nodal field at n nodes (n x 3). */
 void pm_gather(const int32_t *nodes, ptrdiff_t n, const double *nodal, double *local);
 

@@ -167,6 +167,7 @@ void pm_model_assemble(struct pm_model *m, const struct pm_config *c, const doub
                        const double *f, const pm_lanes *mixed)
 {
     struct pm_rotation rot;
+    clock_t start = clock();
     pm_rotation_at(c->U + 3, 0, &rot);
     memset(m->value, 0, (size_t)m->pattern.ptr[m->nq] * sizeof *m->value);
     add_elements(m, &rot, c, mixed);
@@ -175,6 +176,17 @@ void pm_model_assemble(struct pm_model *m, const struct pm_config *c, const doub
         add_tip_forces(m, &rot, f);
     fix_equations(m);
     m->factored = m->factored ? 2 : 0;
+    pm_cost_add(&m->cost.assemble, start);
+}
+
+static enum pm_status factor_values(struct pm_model *m, int *definite, struct pm_err *err)
+{
+    clock_t start = clock();
+    enum pm_status status = pm_cholesky_factor(m->factor, m->value, definite, NULL, err);
+    m->factored = status == PM_OK && *definite;
+    m->factorisations++;
+    pm_cost_add(&m->cost.factor, start);
+    return status;
 }
 
 enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p,
@@ -182,10 +194,7 @@ enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, co
                                struct pm_err *err)
 {
     pm_model_assemble(m, c, p, f, mixed);
-    m->factorisations++;
-    enum pm_status status = pm_cholesky_factor(m->factor, m->value, definite, NULL, err);
-    m->factored = status == PM_OK && *definite;
-    return status;
+    return factor_values(m, definite, err);
 }
 
 int pm_model_patience(const struct pm_model *m)
@@ -209,7 +218,9 @@ enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, c
     *definite = 0;
     if (m->factored) {
         pm_model_assemble(m, c, p, f, NULL);
+        clock_t start = clock();
         PM_TRY(pm_krylov_solve(m, probe, 1, tolerance, pm_model_patience(m), &k, err));
+        pm_cost_add(&m->cost.solve, start);
         m->solves += k.steps;
         *definite = k.good && k.least > 0.25;
         pm_log(3, "conjugate gradients: %d steps, Ritz values %.3f to %.3f%s", k.steps, k.least,
@@ -219,7 +230,7 @@ enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, c
         PM_TRY(pm_model_factor(m, c, p, f, NULL, definite, err));
         memcpy(probe, rhs, (size_t)m->nq * sizeof *probe);
         if (*definite)
-            PM_TRY(pm_cholesky_solve(m->factor, probe, 1, err));
+            PM_TRY(pm_model_solve(m, probe, 1, 0.0, err));
     }
 done:
     pm_free(rhs);
@@ -232,6 +243,7 @@ enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, dou
     enum pm_status status = PM_OK;
     struct pm_krylov_report k = {0};
     double *rhs = NULL;
+    clock_t start = clock();
     int definite;
     for (ptrdiff_t i = 0; i < m->nq * nrhs; i++)
         if (m->fixed[i % m->nq])
@@ -244,15 +256,14 @@ enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, dou
         if (k.good)
             goto done;
         memcpy(q, rhs, (size_t)(m->nq * nrhs) * sizeof *rhs);
-        m->factorisations++;
-        PM_TRY(pm_cholesky_factor(m->factor, m->value, &definite, NULL, err));
-        m->factored = definite;
+        PM_TRY(factor_values(m, &definite, err));
         if (!definite)
             PM_TRY(pm_fail(err, PM_NUMERIC, "the tangent is not positive definite"));
     }
     m->solves++;
     status = pm_cholesky_solve(m->factor, q, nrhs, err);
 done:
+    pm_cost_add(&m->cost.solve, start);
     pm_free(rhs);
     return status;
 }

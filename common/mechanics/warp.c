@@ -17,7 +17,7 @@ struct laplacian {
 };
 
 struct pm_warp {
-    const struct pm_model *m;
+    struct pm_model *m;
     ptrdiff_t axes;               /* 3 with symmetry planes, else 1 */
     uint8_t *on_plane;            /* axis i of a node is given there (nn x 3) */
     struct laplacian loose, held; /* end-effector nodes free; given */
@@ -111,12 +111,13 @@ static void laplacian_release(struct laplacian *l)
     pm_pattern_release(&l->pattern);
 }
 
-enum pm_status pm_warp_new(const struct pm_model *m, struct pm_warp **out, struct pm_err *err)
+enum pm_status pm_warp_new(struct pm_model *m, struct pm_warp **out, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_warp *w = pm_calloc(1, sizeof *w, err);
     if (w == NULL)
         return PM_SYSTEM;
+    clock_t start = clock();
     w->m = m;
     w->axes = 1;
     PM_TRY(PM_NEW(w->on_plane, 3 * m->nn, err));
@@ -135,6 +136,7 @@ enum pm_status pm_warp_new(const struct pm_model *m, struct pm_warp **out, struc
     PM_TRY(PM_NEW(w->rhs, 3 * w->loose.pattern.n, err));
     PM_TRY(PM_NEW(w->b, 3 * m->nn, err));
     PM_TRY(PM_NEW(w->x, 3 * m->nn, err));
+    pm_cost_add(&m->cost.warp, start);
     *out = w;
     w = NULL;
 done:
@@ -366,8 +368,9 @@ enum pm_status pm_warp_move(struct pm_warp *w, const struct pm_config *c, const 
                             const double *du2, struct pm_config *to, struct pm_err *err)
 {
     enum pm_status status;
-    const struct pm_model *m = w->m;
+    struct pm_model *m = w->m;
     double U[6];
+    clock_t start = clock();
     memcpy(U, c->U, sizeof U);
     add_targets(w, c, du1, du2);
     memset(w->x, 0, 3 * (size_t)m->nn * sizeof *w->x);
@@ -384,6 +387,7 @@ enum pm_status pm_warp_move(struct pm_warp *w, const struct pm_config *c, const 
         PM_TRY(solve(w, &w->held, err));
     }
     memcpy(to->u, w->x, 3 * (size_t)m->nn * sizeof *to->u);
+    pm_cost_add(&m->cost.warp, start);
 done:
     return status;
 }

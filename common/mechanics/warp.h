@@ -9,7 +9,7 @@
 
 struct pm_warp;
 
-enum pm_status pm_warp_new(const struct pm_model *m, struct pm_warp **w, struct pm_err *err);
+enum pm_status pm_warp_new(struct pm_model *m, struct pm_warp **w, struct pm_err *err);
 /* to = c moved by A = H1 + (H2 - H1 H1)/2, H = grad_x of the nodal fields du1 and du2 (NULL: A =
  * H1; nn x 3). The end-effector moves as a rigid body with the mean of its nodes; its rotation
  * vector is the one near that of c. */

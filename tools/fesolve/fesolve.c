@@ -1,5 +1,6 @@
 #include "tools/fesolve/fesolve.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -112,10 +113,20 @@ done:
     return status;
 }
 
+static void tell_cost(const struct pm_model *m, const struct pm_state *s)
+{
+    const struct pm_cost *t = &m->cost;
+    double rate = t->factor > 0.0 ? (double)m->factorisations * s->factor_flops / t->factor : 0.0;
+    pm_log(1, "factor: %.3e entries, %.3e operations, %.3f s each at %.1f GFlop/s; %lld solves",
+           s->factor_entries, s->factor_flops, t->factor / fmax(1.0, (double)m->factorisations),
+           1e-9 * rate, (long long)s->solves);
+    pm_log(1, "CPU s: order %.2f, assemble %.2f, factor %.2f, solve %.2f, turn %.2f", t->order,
+           t->assemble, t->factor, t->solve, t->warp);
+}
+
 static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, struct pm_err *err)
 {
     enum pm_status status;
-    double entries, flops;
     ptrdiff_t nc = s->mesh.nc;
     struct pm_model *m = NULL;
     struct pm_config c = {0};
@@ -133,7 +144,9 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     for (ptrdiff_t i = 0; i < nc; i++)
         p[i] = s->pressure[i] * m->law.mu;
     PM_TRY(fesolve_balance(o, m, p, &c, s->volume, f, &r, err));
+    const long before = m->factorisations;
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
+    r.factorisations += m->factorisations - before;
     reaction(m, &c, f, s->reaction);
     PM_TRY(pm_config_store(m, &c, s, err));
     snprintf(s->element, sizeof s->element, "%s", m->space.type->name);
@@ -144,6 +157,9 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     s->newton_steps = r.newton_steps;
     s->factorisations = r.factorisations;
     s->backoffs = r.backoffs;
+    s->unknowns = m->nq;
+    s->solves = m->solves;
+    pm_cholesky_size(m->factor, &s->factor_entries, &s->factor_flops);
     s->stable = 1;
     s->warm = r.warm;
     pm_log(1,
@@ -151,8 +167,7 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
            "residual %.1e",
            m->nq, r.load_steps, r.newton_steps, r.factorisations, r.backoffs,
            r.warm ? ", warm" : "", r.residual);
-    pm_cholesky_size(m->factor, &entries, &flops);
-    pm_log(1, "factor: %.3e entries, %.3e operations", entries, flops);
+    tell_cost(m, s);
     pm_log(1, "U = %.6f %.6f %.6f mm, %.6f %.6f %.6f rad; smallest det F %.3f", s->U[0], s->U[1],
            s->U[2], s->U[3], s->U[4], s->U[5], s->min_det_F);
     PM_TRY(pm_contact_find(&s->mesh, s->u, &s->contact, err));
