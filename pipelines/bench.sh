@@ -29,15 +29,18 @@ measure_fesolve() {
     mv "$row.part" "$row"
 }
 
+# In a folder of another name until it is done: a killed run leaves no results.
 measure_calculix() {
-    local mesh=$1 dat=$2 folder log
-    folder=$(dirname "$dat")
-    rm -rf "$folder"
-    mkdir -p "$folder"
-    log=$folder/log
-    "$BIN/meshexport" --pressure "$PRESSURE" "$mesh" -o "$folder/job.inp"
+    local mesh=$1 folder part log
+    folder=$(dirname "$2")
+    part=$folder.part
+    rm -rf "$folder" "$part"
+    mkdir -p "$part"
+    log=$part/log
+    "$BIN/meshexport" --pressure "$PRESSURE" "$mesh" -o "$part/job.inp"
     echo "bench: CalculiX at work, log: $log" >&2
-    cpu env -C "$folder" ccx job >"$folder/cpu"
+    cpu env -C "$part" ccx job >"$part/cpu"
+    mv "$part" "$folder"
 }
 
 # Columns of job.sta: step, increment, attempt, iterations.
