@@ -80,6 +80,7 @@ static const struct pm_item table[] = {
     {"state", "/solve/solves", I64, "", "1", "solves with a factor, all right-hand sides at once", 1},
     {"state", "/solve/factor_entries", D, "", "1", "entries of the factor", 1},
     {"state", "/solve/factor_flops", D, "", "1", "operations of one factorisation", 1},
+    {"state", "/solve/limit", D, "", "1", "limit pressures over those wanted, 0: not sought or none", 1},
     {"state", "/solve/stable", I64, "", "1", "1: tangent positive definite at the solution", 1},
     {"state", "/solve/warm", I64, "", "1", "1: started from a guess", 1},
     {"state", "/contact/intersections", I64, "", "1", "pairs of boundary faces that pierce each other in the deformed body, or a symmetry plane", 1},

@@ -26,6 +26,7 @@ static const struct scalar scalars[] = {
     {"/solve/solves", AT(solves), 0},
     {"/solve/factor_entries", AT(factor_entries), 1},
     {"/solve/factor_flops", AT(factor_flops), 1},
+    {"/solve/limit", AT(limit), 1},
     {"/solve/stable", AT(stable), 0},
     {"/solve/warm", AT(warm), 0},
     {"/contact/intersections", AT(contact.intersections), 0},

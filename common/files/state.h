@@ -33,8 +33,9 @@ struct pm_state {
     int64_t load_steps, newton_steps, factorisations, backoffs;
     int64_t unknowns, solves;            /* solves with a factor, of all right-hand sides at once */
     double factor_entries, factor_flops; /* of one factorisation */
-    int64_t stable;                      /* 1: tangent positive definite at the solution */
-    int64_t warm;                        /* 1: started from --guess */
+    double limit;   /* of --limit: limit pressures over the wanted, 0: not sought or none */
+    int64_t stable; /* 1: tangent positive definite at the solution */
+    int64_t warm;   /* 1: started from --guess */
     struct pm_self_contact contact;
 };
 

@@ -41,20 +41,6 @@ static void set_pressure(struct pm_newton *s, const struct path *path, double la
         s->p[r] = (1.0 - lambda) * path->from[r] + lambda * path->to[r];
 }
 
-/* Largest generalised load of the pressures p on the undeformed state. */
-static void measure_load(struct pm_newton *s, const struct pm_config *undeformed, const double *p)
-{
-    s->load_norm = 0.0;
-    for (ptrdiff_t r = 0; r < s->m->mesh->nc; r++) {
-        double most = 0.0;
-        pm_model_volume_gradient(s->m, undeformed, r, s->nodal);
-        pm_model_reduce(s->m, undeformed, s->nodal, s->g);
-        for (ptrdiff_t k = 0; k < s->m->nq; k++)
-            most = fmax(most, fabs(s->g[k]));
-        s->load_norm = fmax(s->load_norm, fabs(p[r]) * most);
-    }
-}
-
 /* c = base moved by the predictor of step h, of first or second order, whichever leaves the smaller
  * residual; that is s->residual (infinite: inverted element). */
 static enum pm_status predictor(struct pm_newton *s, struct path *path, double lambda, double h,
@@ -195,6 +181,7 @@ static enum pm_status follow(struct pm_newton *s, struct path *path, struct pm_c
     }
     *reached = lambda == 1.0;
     s->r->lambda = lambda;
+    pm_config_copy(s->m, &path->base, c);
 done:
     path_release(path);
     return status;
@@ -259,7 +246,7 @@ enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct 
     PM_TRY(pm_newton_new(m, o, r, f, volume, &s, err));
     PM_TRY(PM_NEW(zero, m->mesh->nc, err));
     PM_TRY(pm_config_new(m, &undeformed, err));
-    measure_load(&s, &undeformed, p);
+    pm_newton_measure_load(&s, p);
     if (s.load_norm == 0.0) { /* no pressure: the undeformed state */
         pm_config_copy(m, &undeformed, c);
     } else if (guess != NULL) {

@@ -36,7 +36,8 @@ struct pm_guess {
 /* Equilibrium at pressures p (nc) [MPa] into c, with the model ready for solves with its exact
  * tangent. guess NULL: from the undeformed state; else c holds a guess, corrected at its own loads
  * and followed from there to p. PM_NUMERIC with the load reached and the last reason if that does
- * not lead to a stable equilibrium. volume (nc) and f (nn x 3): chamber volumes and nodal forces at
+ * not lead to a stable equilibrium; c is then the last one on the way, roughly (at r->lambda).
+ * volume (nc) and f (nn x 3): chamber volumes and nodal forces at
  * the solution. */
 enum pm_status pm_equilibrium(struct pm_model *m, const double *p, const struct pm_solve_options *o,
                               const struct pm_guess *guess, struct pm_config *c, double *volume,

@@ -7,6 +7,7 @@
 struct pm_krylov_report {
     int steps;             /* of conjugate gradients, each one triangular solve */
     int good;              /* 1: converged within the limit and without negative curvature */
+    double gamma;          /* of the stiffening */
     double least, largest; /* Ritz values: bounds from inside on the eigenvalues of factor^-1 K */
 };
 
@@ -16,5 +17,12 @@ struct pm_krylov_report {
  */
 enum pm_status pm_krylov_solve(struct pm_model *m, double *x, ptrdiff_t n, double tolerance,
                                int limit, struct pm_krylov_report *report, struct pm_err *err);
+
+/* The same with K + gamma b b^T (b: nq) for K, gamma = 10 over b . factor^-1 b: the solutions with
+ * prescribed b . x are those of K, and it is positive definite where K is so for b . x = 0, as past
+ * a limit point. */
+enum pm_status pm_krylov_solve_stiffened(struct pm_model *m, const double *b, double *x,
+                                         ptrdiff_t n, double tolerance, int limit,
+                                         struct pm_krylov_report *report, struct pm_err *err);
 
 #endif

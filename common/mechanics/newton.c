@@ -40,6 +40,23 @@ void pm_newton_release(struct pm_newton *s)
     *s = (struct pm_newton){0};
 }
 
+void pm_newton_measure_load(struct pm_newton *s, const double *p)
+{
+    for (ptrdiff_t k = 0; k < 3 * s->m->nn; k++)
+        s->trial.u[k] = 0.0;
+    for (int k = 0; k < 6; k++)
+        s->trial.U[k] = 0.0;
+    s->load_norm = 0.0;
+    for (ptrdiff_t r = 0; r < s->m->mesh->nc; r++) {
+        double most = 0.0;
+        pm_model_volume_gradient(s->m, &s->trial, r, s->nodal);
+        pm_model_reduce(s->m, &s->trial, s->nodal, s->g);
+        for (ptrdiff_t k = 0; k < s->m->nq; k++)
+            most = fmax(most, fabs(s->g[k]));
+        s->load_norm = fmax(s->load_norm, fabs(p[r]) * most);
+    }
+}
+
 int pm_newton_refuse(struct pm_newton *s, const char *why, double value)
 {
     snprintf(s->r->why, sizeof s->r->why, "%s %.4g", why, value);

@@ -29,6 +29,8 @@ enum pm_status pm_newton_new(struct pm_model *m, const struct pm_solve_options *
                              struct pm_newton *s, struct pm_err *err);
 void pm_newton_release(struct pm_newton *s);
 
+/* load_norm: the largest generalised load of the pressures p on the undeformed body. */
+void pm_newton_measure_load(struct pm_newton *s, const double *p);
 /* Residual at c; 0 if an element is inverted or too flat. */
 int pm_newton_evaluate(struct pm_newton *s, const struct pm_config *c);
 /* Keeps the reason in the report; returns 0. */

@@ -11,6 +11,7 @@
 #include "common/geometry/contact.h"
 #include "common/mechanics/adjoint.h"
 #include "common/mechanics/equilibrium.h"
+#include "common/mechanics/limit.h"
 #include "common/mechanics/restore.h"
 #include "tools/fesolve/guess.h"
 #include "tools/fesolve/path.h"
@@ -113,6 +114,31 @@ done:
     return status;
 }
 
+/* The limit of the pressures p; the state becomes the last stable one on the way. */
+static enum pm_status seek_limit(const struct fesolve_opts *o, struct pm_model *m, const double *p,
+                                 struct pm_config *c, double *f, struct pm_solve_report *r,
+                                 struct pm_state *s, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_solve_options options = pm_solve_default;
+    struct pm_limit limit;
+    options.tolerance = o->tolerance;
+    PM_TRY(pm_limit_find(m, p, &options, c, s->volume, f, r, &limit, err));
+    s->limit = limit.found ? limit.factor : 0.0;
+    for (ptrdiff_t i = 0; i < s->mesh.nc; i++)
+        s->pressure[i] *= limit.reached;
+    if (limit.found)
+        printf("limit\t%.9g\treached\t%.9g\n", limit.factor, limit.reached);
+    else
+        printf("limit\tnone\treached\t1\n");
+    pm_log(1,
+           limit.found ? "limit at %.9f of the pressures after %ld steps of volume control"
+                       : "no limit up to %.0f times the pressures (%ld steps of volume control)",
+           limit.factor, limit.steps);
+done:
+    return status;
+}
+
 static void tell_cost(const struct pm_model *m, const struct pm_state *s)
 {
     const struct pm_cost *t = &m->cost;
@@ -143,7 +169,10 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     pm_model_potential(m, &c, p, NULL, s->volume0, &low);
     for (ptrdiff_t i = 0; i < nc; i++)
         p[i] = s->pressure[i] * m->law.mu;
-    PM_TRY(fesolve_balance(o, m, p, &c, s->volume, f, &r, err));
+    if (o->limit)
+        PM_TRY(seek_limit(o, m, p, &c, f, &r, s, err));
+    else
+        PM_TRY(fesolve_balance(o, m, p, &c, s->volume, f, &r, err));
     const long before = m->factorisations;
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
     r.factorisations += m->factorisations - before;
@@ -187,6 +216,9 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
     enum pm_status status;
     struct pm_state s = {0};
     struct pm_h5 *out = NULL;
+    if (o->limit && (o->nguess > 0 || o->path != NULL))
+        return pm_fail(err, PM_USAGE,
+                       "option --limit starts from zero: not with --guess or --path");
     if (o->have_load + (o->npressure > 0) + (o->path != NULL) != 1)
         return pm_fail(err, PM_USAGE, "expected exactly one of --load, --pressure and --path");
     PM_TRY(pm_material_check(&o->material, err));

@@ -9,6 +9,7 @@ static const struct pm_option options[] = {
     {"path", 'P', "FILE", "solve at the pressures of FILE, one point a line, each from the last"},
     {"guess", 'g', "STATE.h5",
      "start from this state, also of another mesh; repeated: the nearest in pressure"},
+    {"limit", 0, NULL, "find the limit pressures between zero and those of --load or --pressure"},
     {"element", 'e', "NAME",
      "tet10-blend (default; of a linear mesh tet4), tet10, tet10-mean, tet4 or tet15"},
     {"material", 0, "NAME", "another material than the mesh says: a preset of pneumorph-case(5)"},
@@ -45,6 +46,8 @@ static enum pm_status option(void *data, const char *name, const char *value, st
             return pm_fail(err, PM_USAGE, "option --guess: more than %d files",
                            FESOLVE_MOST_GUESSES);
         o->guess[o->nguess++] = value;
+    } else if (strcmp(name, "limit") == 0) {
+        o->limit = 1;
     } else if (strcmp(name, "element") == 0) {
         o->element = value;
     } else if (strcmp(name, "tolerance") == 0) {
