@@ -46,6 +46,7 @@ struct pm_model {
     struct pm_cholesky *factor;
     int factored; /* the factor is one of a positive definite tangent: 1 that of `value`, 2 an older
                      one, 0 none */
+    int steps;    /* of conjugate gradients since it was made */
     long factorisations, solves; /* solves: with the factor, of all columns together */
     struct pm_cost cost;
 };

@@ -5,8 +5,8 @@
 #include "common/base/memory.h"
 #include "common/mechanics/tensor.h"
 
-/* A predictor needs no more. */
-static const double tolerance = 1e-4;
+/* Of residuals: a predictor needs no more. */
+static const double first_tolerance = 1e-4, second_tolerance = 1e-3;
 
 /* Nodal fields along the path. */
 struct fields {
@@ -95,11 +95,11 @@ enum pm_status pm_path_derivatives(struct pm_model *m, const struct pm_config *c
     k = (struct fields){store, du1, store + n3, store + 2 * n3, store + 3 * n3};
     load_field(m, c, dp, &k);
     pm_model_reduce(m, c, k.load, dq);
-    PM_TRY(pm_model_prepare(m, c, p, f, dq, tolerance, definite, err));
+    PM_TRY(pm_model_prepare(m, c, p, f, dq, first_tolerance, definite, err));
     if (!*definite)
         goto done;
     second_order(m, c, p, f, dp, dq, &k, ddq);
-    PM_TRY(pm_model_solve(m, ddq, 1, tolerance, err));
+    PM_TRY(pm_model_solve(m, ddq, 1, second_tolerance, err));
     pm_model_expand(m, c, ddq, du2);
     for (ptrdiff_t i = 0; i < n3; i++)
         du2[i] += k.c[i];

@@ -19,10 +19,12 @@ enum pm_status pm_config_restore(const struct pm_model *m, const struct pm_state
     return PM_OK;
 }
 
-/* Linear elements on a quadratic mesh leave the mid-side nodes out. */
-static void interpolate(const struct pm_model *m, double *u)
+void pm_config_displacement(const struct pm_model *m, const struct pm_config *c, double *u)
 {
     const struct pm_mesh *mesh = m->mesh;
+    memcpy(u, c->u, 3 * (size_t)mesh->nn * sizeof *u);
+    if (m->space.type->npe > 4 || mesh->npe == 4)
+        return;
     for (ptrdiff_t e = 0; e < mesh->ne; e++)
         for (int k = 0; k < 6; k++) {
             const int32_t *t = mesh->tet + mesh->npe * e;
@@ -39,15 +41,13 @@ enum pm_status pm_config_store(const struct pm_model *m, const struct pm_config 
     enum pm_status status;
     ptrdiff_t nn = m->mesh->nn;
     PM_TRY(PM_NEW(s->u, 3 * nn, err));
-    memcpy(s->u, c->u, 3 * (size_t)nn * sizeof *s->u);
+    pm_config_displacement(m, c, s->u);
     memcpy(s->U, c->U, sizeof s->U);
     s->nbubble = m->nn - nn;
     if (s->nbubble > 0) {
         PM_TRY(PM_NEW(s->bubble, 3 * s->nbubble, err));
         memcpy(s->bubble, c->u + 3 * nn, 3 * (size_t)s->nbubble * sizeof *s->bubble);
     }
-    if (m->space.type->npe == 4 && m->mesh->npe == 10)
-        interpolate(m, s->u);
 done:
     return status;
 }

@@ -8,8 +8,10 @@
 /* c = the configuration of the state, whose element and mesh the model has. */
 enum pm_status pm_config_restore(const struct pm_model *m, const struct pm_state *s,
                                  struct pm_config *c, struct pm_err *err);
-/* s->u, U, bubble = c; nodes of the mesh that the element does not have are put between their
- * neighbours. */
+/* u = displacement of the nodes of the mesh (nn x 3) [mm]; those that the element does not have
+ * (mid-side nodes of tet4) are put between their neighbours. */
+void pm_config_displacement(const struct pm_model *m, const struct pm_config *c, double *u);
+/* s->u, U, bubble = c. */
 enum pm_status pm_config_store(const struct pm_model *m, const struct pm_config *c,
                                struct pm_state *s, struct pm_err *err);
 

@@ -1,11 +1,17 @@
 #include "common/mechanics/sparse.h"
 
+#include <cblas.h>
 #include <cholmod.h>
 #include <metis.h>
 
 #include <string.h>
 
 #include "common/base/memory.h"
+
+void pm_threads_set(int n)
+{
+    openblas_set_num_threads(n);
+}
 
 struct pm_cholesky {
     cholmod_common common;

@@ -7,6 +7,9 @@
 
 #include "common/base/status.h"
 
+/* Threads of the dense kernels in factorisations (1 at the start of every tool). */
+void pm_threads_set(int n);
+
 struct pm_cholesky; /* symbolic analysis and factor of one sparsity pattern */
 
 /* Nested dissection (METIS) of a graph of n nodes given by its adjacency lists without self loops:

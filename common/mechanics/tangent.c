@@ -184,6 +184,7 @@ static enum pm_status factor_values(struct pm_model *m, int *definite, struct pm
     clock_t start = clock();
     enum pm_status status = pm_cholesky_factor(m->factor, m->value, definite, NULL, err);
     m->factored = status == PM_OK && *definite;
+    m->steps = 0;
     m->factorisations++;
     pm_cost_add(&m->cost.factor, start);
     return status;
@@ -201,8 +202,8 @@ int pm_model_patience(const struct pm_model *m)
 {
     double entries, flops;
     pm_cholesky_size(m->factor, &entries, &flops);
-    /* a solve streams the factor twice: measured 35 to 45 flops of a factorisation per entry */
-    return 3 + (int)(0.5 * flops / (40.0 * entries));
+    /* a solve streams the factor twice: measured 35 to 55 flops of a factorisation per entry */
+    return 3 + (int)(0.5 * flops / (50.0 * entries));
 }
 
 enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, const double *p,
@@ -216,12 +217,14 @@ enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, c
     for (ptrdiff_t i = 0; i < m->nq; i++)
         rhs[i] = probe[i] = m->fixed[i] ? 0.0 : probe[i];
     *definite = 0;
-    if (m->factored) {
+    /* what has cost as much as a new factor is not kept longer */
+    if (m->factored && m->steps <= 2 * pm_model_patience(m)) {
         pm_model_assemble(m, c, p, f, NULL);
         clock_t start = clock();
         PM_TRY(pm_krylov_solve(m, probe, 1, tolerance, pm_model_patience(m), &k, err));
         pm_cost_add(&m->cost.solve, start);
         m->solves += k.steps;
+        m->steps += k.steps;
         *definite = k.good && k.least > 0.25;
         pm_log(3, "conjugate gradients: %d steps, Ritz values %.3f to %.3f%s", k.steps, k.least,
                k.largest, k.good ? "" : ", given up");
@@ -253,6 +256,7 @@ enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, dou
         memcpy(rhs, q, (size_t)(m->nq * nrhs) * sizeof *rhs);
         PM_TRY(pm_krylov_solve(m, q, nrhs, tolerance, 2 * pm_model_patience(m), &k, err));
         m->solves += k.steps;
+        m->steps += k.steps;
         if (k.good)
             goto done;
         memcpy(q, rhs, (size_t)(m->nq * nrhs) * sizeof *rhs);

@@ -221,6 +221,7 @@ enum pm_status fesolve_run(const struct fesolve_opts *o, const struct pm_common 
                        "option --limit starts from zero: not with --guess or --path");
     if (o->have_load + (o->npressure > 0) + (o->path != NULL) != 1)
         return pm_fail(err, PM_USAGE, "expected exactly one of --load, --pressure and --path");
+    pm_threads_set((int)o->threads);
     PM_TRY(pm_material_check(&o->material, err));
     PM_TRY(pm_mesh_load(common->operands[0], o->record_failure && o->path == NULL, &s.mesh, err));
     if (s.mesh.failure[0] != '\0') {

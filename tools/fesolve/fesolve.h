@@ -19,6 +19,7 @@ struct fesolve_opts {
     const char *element;
     struct pm_material material; /* instead of that of the mesh, where it says anything */
     double tolerance;
+    long threads;
     int limit;
     int record_failure;
 };

@@ -17,6 +17,8 @@ static const struct pm_option options[] = {
     {"parameters", 0, "C1,C2,..", "parameters of --law, in the order of pneumorph-case(5)"},
     {"kappa", 0, "MPA", "another bulk modulus (default with another material: 100 mu)"},
     {"tolerance", 't', "T", "residual / pressure load at the solution (default 1e-8)"},
+    {"threads", 'j', "N",
+     "threads of the factorisations (default 1: several processes beside each other are faster)"},
     {"record-failure", 'r', NULL,
      "where there is no stable equilibrium, write a file that says why"},
     {0}};
@@ -46,6 +48,10 @@ static enum pm_status option(void *data, const char *name, const char *value, st
             return pm_fail(err, PM_USAGE, "option --guess: more than %d files",
                            FESOLVE_MOST_GUESSES);
         o->guess[o->nguess++] = value;
+    } else if (strcmp(name, "threads") == 0) {
+        status = pm_parse_long(name, value, &o->threads, err);
+        if (status == PM_OK && (o->threads < 1 || o->threads > 256))
+            status = pm_fail(err, PM_USAGE, "option --threads: found %s, expected 1 to 256", value);
     } else if (strcmp(name, "limit") == 0) {
         o->limit = 1;
     } else if (strcmp(name, "element") == 0) {
@@ -77,6 +83,6 @@ int main(int argc, char **argv)
                                         .max_operands = 1,
                                         .option = option,
                                         .run = run};
-    struct fesolve_opts opts = {.tolerance = 1e-8};
+    struct fesolve_opts opts = {.tolerance = 1e-8, .threads = 1};
     return pm_tool_main(&tool, argc, argv, &opts);
 }
