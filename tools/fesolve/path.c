@@ -12,6 +12,7 @@
 #include "common/geometry/contact.h"
 #include "common/mechanics/adjoint.h"
 #include "common/mechanics/equilibrium.h"
+#include "common/mechanics/restore.h"
 
 enum { LINE = 4096 };
 
@@ -149,11 +150,11 @@ static enum pm_status record(struct walk *w, ptrdiff_t i, const struct pm_solve_
     PM_TRY(pm_jacobian(w->m, &w->c, w->m->law.mu, w->Jq, s->J + 6 * nc * i, err));
     memcpy(s->U + 6 * i, w->c.U, sizeof w->c.U);
     memcpy(s->volume + nc * i, w->volume, (size_t)nc * sizeof *w->volume);
-    memcpy(s->displacement + 3 * nn * i, w->c.u, 3 * (size_t)nn * sizeof *w->c.u);
+    pm_config_displacement(w->m, &w->c, s->displacement + 3 * nn * i);
     s->energy[i] = r->energy;
     s->residual[i] = r->residual;
     s->min_det_F[i] = r->min_det_F;
-    PM_TRY(pm_contact_find(&s->mesh, w->c.u, &contact, err));
+    PM_TRY(pm_contact_find(&s->mesh, s->displacement + 3 * nn * i, &contact, err));
     s->intersections[i] = contact.intersections;
     s->gap[i] = contact.gap;
     pm_config_copy(w->m, &w->c, &w->last);
