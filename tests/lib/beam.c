@@ -34,7 +34,7 @@ struct beam {
 static const struct beam beams[] = {
     {"finger", {5, 1, 3, 0, {0, 1, 3.5, 6, 7}}, {3, 0, 1, 1, {0, 3, 4}}, 3, 1, 6, 2, 1, 0, 0, 0},
     {"bellows", {3, 0, 1, 1, {0, 4, 5}}, {3, 0, 1, 1, {0, 4, 5}}, 2, 2, 6, 2, 1, 0, 0, 0},
-    {"pair", {4, 1, 2, 1, {0, 0.5, 4, 5}}, {3, 0, 1, 1, {0, 3, 4}}, 2, 1, 6, 2, 2, 0, 0, 0}};
+    {"pair", {5, 1, 3, 1, {0, 1, 3.5, 6, 7}}, {3, 0, 1, 1, {0, 3, 4}}, 3, 1, 6, 2, 2, 0, 0, 0}};
 
 /* Cell of a mirrored axis, counted outwards from 0. */
 static int outward(const struct axis *a, int cell)

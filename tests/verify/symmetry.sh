@@ -8,10 +8,10 @@ numbers() {
     h5dump -m %.17g -y -w 0 -d "$1" "$2" | awk '/DATA \{/ { on++; next } /}/ { on += on } on == 1' | tr ',\n' '  '
 }
 
-# solve BODY PART PRESSURES NAME: 4 pitches
+# solve BODY PART PRESSURES NAME: 3 pitches
 solve() {
     rm -f "$work/$4.h5"
-    "$LIB/beam" "$1" "$2" 4 "$work/b.msh" && "$BIN/tetmesh" -q --import "$work/b.msh" --mu 1 --kappa 100 -o "$work/b.h5" &&
+    "$LIB/beam" "$1" "$2" 3 "$work/b.msh" && "$BIN/tetmesh" -q --import "$work/b.msh" --mu 1 --kappa 100 -o "$work/b.h5" &&
         "$BIN/fesolve" --tolerance 1e-10 --pressure="$3" "$work/b.h5" -o "$work/$4.h5"
 }
 
