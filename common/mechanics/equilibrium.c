@@ -198,7 +198,7 @@ static enum pm_status finish(struct pm_newton *s, const double *p, struct pm_con
     s->r->residual = s->load_norm > 0.0 ? s->residual : 0.0;
     pm_model_volume_gradient(s->m, c, 0, s->nodal);
     pm_model_reduce(s->m, c, s->nodal, s->dq);
-    PM_TRY(pm_model_prepare(s->m, c, p, s->f, s->dq, 0.1, &definite, err));
+    PM_TRY(pm_model_prepare(s->m, c, p, s->f, NULL, s->dq, 0.1, &definite, err));
     if (!definite)
         status =
             pm_fail(err, PM_NUMERIC,

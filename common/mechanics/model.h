@@ -102,13 +102,13 @@ void pm_model_assemble(struct pm_model *m, const struct pm_config *c, const doub
 enum pm_status pm_model_factor(struct pm_model *m, const struct pm_config *c, const double *p,
                                const double *f, const pm_lanes *mixed, int *definite,
                                struct pm_err *err);
-/* Makes solves with the exact tangent at c possible, by the factor at hand and conjugate gradients
- * where they need few steps, else by its own factor. probe (q-vector): a right-hand side, replaced
- * by its solution to `tolerance`. definite: 1 by the new factor, or where the eigenvalues of
- * factor^-1 K that the probe excites lie above 1/4. */
+/* Makes solves with the tangent at c (mixed as in pm_model_assemble) possible, by the factor at
+ * hand and conjugate gradients where they need few steps, else by its own factor. probe (q-vector):
+ * a right-hand side, replaced by its solution to `tolerance`. definite: 1 by the new factor, or
+ * where the eigenvalues of factor^-1 K that the probe excites lie above 1/4. */
 enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, const double *p,
-                                const double *f, double *probe, double tolerance, int *definite,
-                                struct pm_err *err);
+                                const double *f, const pm_lanes *mixed, double *probe,
+                                double tolerance, int *definite, struct pm_err *err);
 /* q (nq x nrhs) is replaced by K^-1 q, K as assembled last. Where the factor is older: to residuals
  * of `tolerance`, with a new factor if that takes too long. */
 enum pm_status pm_model_solve(struct pm_model *m, double *q, ptrdiff_t nrhs, double tolerance,

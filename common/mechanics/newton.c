@@ -10,7 +10,9 @@
  * less strain than the correction itself. */
 static const double turning_residual = 1.0;
 /* Below it the tangent changes little: the factor at hand serves. */
-static const double near_residual = 0.1;
+static const double near_residual = 3.0;
+/* Below it the exact tangent converges faster than the mixed one. */
+static const double exact_residual = 0.1;
 
 enum pm_status pm_newton_new(struct pm_model *m, const struct pm_solve_options *o,
                              struct pm_solve_report *r, double *f, double *volume,
@@ -87,11 +89,12 @@ static enum pm_status correct(struct pm_newton *s, const struct pm_config *c, do
     struct pm_model *m = s->m;
     for (ptrdiff_t k = 0; k < m->nq; k++)
         s->dq[k] = -s->g[k];
+    const pm_lanes *stress = mixed && s->residual > exact_residual ? s->mixed : NULL;
     if (m->factored && s->residual < near_residual) {
         double forcing = fmin(0.1, fmax(1e-3, 0.3 * tolerance / s->residual));
-        PM_TRY(pm_model_prepare(m, c, s->p, s->f, s->dq, forcing, definite, err));
+        PM_TRY(pm_model_prepare(m, c, s->p, s->f, stress, s->dq, forcing, definite, err));
     } else {
-        PM_TRY(pm_model_factor(m, c, s->p, s->f, mixed ? s->mixed : NULL, definite, err));
+        PM_TRY(pm_model_factor(m, c, s->p, s->f, stress, definite, err));
         if (*definite)
             PM_TRY(pm_model_solve(m, s->dq, 1, 0.0, err));
     }

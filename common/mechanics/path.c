@@ -95,7 +95,7 @@ enum pm_status pm_path_derivatives(struct pm_model *m, const struct pm_config *c
     k = (struct fields){store, du1, store + n3, store + 2 * n3, store + 3 * n3};
     load_field(m, c, dp, &k);
     pm_model_reduce(m, c, k.load, dq);
-    PM_TRY(pm_model_prepare(m, c, p, f, dq, first_tolerance, definite, err));
+    PM_TRY(pm_model_prepare(m, c, p, f, NULL, dq, first_tolerance, definite, err));
     if (!*definite)
         goto done;
     second_order(m, c, p, f, dp, dq, &k, ddq);

@@ -207,8 +207,8 @@ int pm_model_patience(const struct pm_model *m)
 }
 
 enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, const double *p,
-                                const double *f, double *probe, double tolerance, int *definite,
-                                struct pm_err *err)
+                                const double *f, const pm_lanes *mixed, double *probe,
+                                double tolerance, int *definite, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     double *rhs = NULL;
@@ -219,7 +219,7 @@ enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, c
     *definite = 0;
     /* what has cost as much as a new factor is not kept longer */
     if (m->factored && m->steps <= 2 * pm_model_patience(m)) {
-        pm_model_assemble(m, c, p, f, NULL);
+        pm_model_assemble(m, c, p, f, mixed);
         clock_t start = clock();
         PM_TRY(pm_krylov_solve(m, probe, 1, tolerance, pm_model_patience(m), &k, err));
         pm_cost_add(&m->cost.solve, start);
@@ -230,7 +230,7 @@ enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, c
                k.largest, k.good ? "" : ", given up");
     }
     if (!*definite) {
-        PM_TRY(pm_model_factor(m, c, p, f, NULL, definite, err));
+        PM_TRY(pm_model_factor(m, c, p, f, mixed, definite, err));
         memcpy(probe, rhs, (size_t)m->nq * sizeof *probe);
         if (*definite)
             PM_TRY(pm_model_solve(m, probe, 1, 0.0, err));

@@ -194,13 +194,13 @@ static void spatial(const pm_lanes G[9], const pm_lanes F[9], pm_lanes H[9])
                                 G[3 * i + 2] * C[3 * k + 2]);
 }
 
-/* f_a += w (exp(A) F - I) grad N_a at point q */
-static void add_target(const struct pm_element *el, int q, const pm_lanes *u, const pm_lanes *d1,
-                       const pm_lanes *d2, pm_lanes *f)
+/* T = exp(A) F - I at point q */
+static void turned(const struct pm_element *el, int q, const pm_lanes *u, const pm_lanes *d1,
+                   const pm_lanes *d2, pm_lanes T[9])
 {
     int npe = el->type->npe;
     const pm_lanes *dN = el->dN + 3 * npe * q;
-    pm_lanes F[9], G[9], A[9], E[9], T[9];
+    pm_lanes F[9], G[9], A[9], E[9];
     pm_lanes_gradient(npe, u, dN, F);
     for (int i = 0; i < 3; i++)
         F[4 * i] += 1.0;
@@ -218,34 +218,94 @@ static void add_target(const struct pm_element *el, int q, const pm_lanes *u, co
     multiply(E, F, T);
     for (int i = 0; i < 3; i++)
         T[4 * i] -= 1.0;
-    for (int a = 0; a < npe; a++)
+}
+
+/* f_a += w T grad N_a at point q of the elements of the model */
+static void add_target(const struct pm_element *el, int q, const pm_lanes T[9], pm_lanes *f)
+{
+    const pm_lanes *dN = el->dN + 3 * el->type->npe * q;
+    for (int a = 0; a < el->type->npe; a++)
         for (int i = 0; i < 3; i++)
             f[3 * a + i] += el->w[q] * (T[3 * i] * dN[3 * a] + T[3 * i + 1] * dN[3 * a + 1] +
                                         T[3 * i + 2] * dN[3 * a + 2]);
+}
+
+static void scatter(struct pm_warp *w, ptrdiff_t batch, const pm_lanes *f)
+{
+    const struct pm_model *m = w->m;
+    ptrdiff_t npe = m->space.type->npe;
+    for (int l = 0; l < pm_model_lanes(m, batch); l++)
+        for (ptrdiff_t a = 0; a < npe; a++)
+            for (int i = 0; i < 3; i++)
+                w->b[3 * (ptrdiff_t)m->space.tet[npe * (PM_LANES * batch + l) + a] + i] +=
+                    f[3 * a + i][l];
 }
 
 static void add_targets(struct pm_warp *w, const struct pm_config *c, const double *du1,
                         const double *du2)
 {
     const struct pm_model *m = w->m;
-    ptrdiff_t npe = m->space.type->npe;
     memset(w->b, 0, 3 * (size_t)m->nn * sizeof *w->b);
     for (ptrdiff_t batch = 0; batch < m->nb; batch++) {
         struct pm_element el = pm_model_batch(m, batch);
-        pm_lanes u[VALUES], d1[VALUES], d2[VALUES], f[VALUES];
+        pm_lanes u[VALUES], d1[VALUES], d2[VALUES], f[VALUES], T[9];
         memset(f, 0, sizeof f);
         pm_model_gather(m, batch, c->u, u);
         pm_model_gather(m, batch, du1, d1);
         if (du2 != NULL)
             pm_model_gather(m, batch, du2, d2);
-        for (int q = 0; q < el.type->nq; q++)
-            add_target(&el, q, u, d1, du2 != NULL ? d2 : NULL, f);
-        for (int l = 0; l < pm_model_lanes(m, batch); l++)
-            for (ptrdiff_t a = 0; a < npe; a++)
-                for (int i = 0; i < 3; i++)
-                    w->b[3 * (ptrdiff_t)m->space.tet[npe * (PM_LANES * batch + l) + a] + i] +=
-                        f[3 * a + i][l];
+        for (int q = 0; q < el.type->nq; q++) {
+            turned(&el, q, u, d1, du2 != NULL ? d2 : NULL, T);
+            add_target(&el, q, T, f);
+        }
+        scatter(w, batch, f);
     }
+}
+
+/* The elements of the batch in the shape X. */
+static enum pm_status earlier_batch(const struct pm_model *m, ptrdiff_t batch, const double *X,
+                                    pm_lanes *dN, pm_lanes *weight, pm_lanes *phi,
+                                    struct pm_err *err)
+{
+    const struct pm_element_type *t = m->space.type;
+    for (int l = 0; l < PM_LANES; l++) {
+        double x[VALUES];
+        ptrdiff_t e = PM_LANES * batch + l < m->space.ne ? PM_LANES * batch + l : m->space.ne - 1;
+        pm_gather(m->space.tet + t->npe * e, t->npe, X, x);
+        if (!(pm_element_geometry(t, x, l, dN, weight, phi) > 0.0))
+            return pm_fail(err, PM_INPUT, "element %td of the earlier shape is inverted", e);
+    }
+    return PM_OK;
+}
+
+static enum pm_status add_earlier(struct pm_warp *w, const double *X, const double *u,
+                                  pm_lanes *mixed, struct pm_err *err)
+{
+    const struct pm_model *m = w->m;
+    const struct pm_element_type *t = m->space.type;
+    pm_lanes dN[VALUES * PM_MOST_POINTS], weight[PM_MOST_POINTS],
+        phi[PM_MOST_MODES * PM_MOST_POINTS], still[VALUES];
+    memset(w->b, 0, 3 * (size_t)m->nn * sizeof *w->b);
+    memset(still, 0, sizeof still);
+    for (ptrdiff_t batch = 0; batch < m->nb; batch++) {
+        struct pm_element el = pm_model_batch(m, batch), before = el;
+        pm_lanes v[VALUES], f[VALUES], T[9];
+        enum pm_status status = earlier_batch(m, batch, X, dN, weight, phi, err);
+        if (status != PM_OK)
+            return status;
+        before.dN = dN;
+        before.w = weight;
+        before.phi = phi;
+        memset(f, 0, sizeof f);
+        pm_model_gather(m, batch, u, v);
+        pm_element_mixed(&before, v, still, mixed + PM_MIXED * t->nq * batch);
+        for (int q = 0; q < t->nq; q++) {
+            pm_lanes_gradient(t->npe, v, dN + 3 * t->npe * q, T);
+            add_target(&el, q, T, f);
+        }
+        scatter(w, batch, f);
+    }
+    return PM_OK;
 }
 
 /* ---- positions ---- */
@@ -364,22 +424,17 @@ static enum pm_status fit_tip(const struct pm_warp *w, double U[6], struct pm_er
     return PM_OK;
 }
 
-enum pm_status pm_warp_move(struct pm_warp *w, const struct pm_config *c, const double *du1,
-                            const double *du2, struct pm_config *to, struct pm_err *err)
+/* Positions nearest to the targets in w->b. */
+static enum pm_status reconstruct(struct pm_warp *w, struct pm_config *to, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_model *m = w->m;
-    double U[6];
-    clock_t start = clock();
-    memcpy(U, c->U, sizeof U);
-    add_targets(w, c, du1, du2);
     memset(w->x, 0, 3 * (size_t)m->nn * sizeof *w->x);
     PM_TRY(solve(w, &w->loose, err));
     if (m->tail > 0) {
-        PM_TRY(fit_tip(w, U, err));
+        PM_TRY(fit_tip(w, to->U, err));
         for (int i = 0; i < 6; i++)
-            U[i] = m->fixed[m->nq - 6 + i] ? 0.0 : U[i];
-        memcpy(to->U, U, sizeof U);
+            to->U[i] = m->fixed[m->nq - 6 + i] ? 0.0 : to->U[i];
         pm_model_place_tip(m, to);
         for (ptrdiff_t a = 0; a < m->nn; a++)
             for (int i = 0; i < 3 && m->kind[a] == PM_NODE_TIP; i++)
@@ -387,7 +442,28 @@ enum pm_status pm_warp_move(struct pm_warp *w, const struct pm_config *c, const 
         PM_TRY(solve(w, &w->held, err));
     }
     memcpy(to->u, w->x, 3 * (size_t)m->nn * sizeof *to->u);
-    pm_cost_add(&m->cost.warp, start);
 done:
+    return status;
+}
+
+enum pm_status pm_warp_move(struct pm_warp *w, const struct pm_config *c, const double *du1,
+                            const double *du2, struct pm_config *to, struct pm_err *err)
+{
+    clock_t start = clock();
+    add_targets(w, c, du1, du2);
+    memcpy(to->U, c->U, sizeof to->U);
+    enum pm_status status = reconstruct(w, to, err);
+    pm_cost_add(&w->m->cost.warp, start);
+    return status;
+}
+
+enum pm_status pm_warp_carry(struct pm_warp *w, const double *X, const double *u,
+                             struct pm_config *to, pm_lanes *mixed, struct pm_err *err)
+{
+    clock_t start = clock();
+    enum pm_status status = add_earlier(w, X, u, mixed, err);
+    if (status == PM_OK)
+        status = reconstruct(w, to, err);
+    pm_cost_add(&w->m->cost.warp, start);
     return status;
 }

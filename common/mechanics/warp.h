@@ -15,6 +15,12 @@ enum pm_status pm_warp_new(struct pm_model *m, struct pm_warp **w, struct pm_err
  * vector is the one near that of c. */
 enum pm_status pm_warp_move(struct pm_warp *w, const struct pm_config *c, const double *du1,
                             const double *du2, struct pm_config *to, struct pm_err *err);
+/* to = the deformation u of an earlier shape X of the same elements (nn x 3 of the model's space),
+ * point by point with its gradients, so that strains change only where those no longer fit
+ * together; to->U: the rigid motion of before as a first value. mixed: its pressures and stresses,
+ * as pm_model_mixed. PM_INPUT where an element of X is inverted. */
+enum pm_status pm_warp_carry(struct pm_warp *w, const double *X, const double *u,
+                             struct pm_config *to, pm_lanes *mixed, struct pm_err *err);
 void pm_warp_free(struct pm_warp *w);
 
 #endif

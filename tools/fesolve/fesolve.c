@@ -83,12 +83,12 @@ enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m,
     PM_TRY(pm_config_new(m, &undeformed, err));
     PM_TRY(guess_choose(o->guess, m->mesh, p, &g, err));
     status = PM_NUMERIC;
-    for (int parts = 1; status == PM_NUMERIC && g.usable && parts <= g.parts; parts *= 2) {
-        struct pm_err why = {0};
-        PM_TRY(guess_carry(&g, m, parts, c, &good, &spent, err));
+    if (g.usable) {
+        PM_TRY(guess_carry(&g, m, c, &good, &spent, err));
         status = PM_NUMERIC;
-        if (!good)
-            continue;
+    }
+    if (g.usable && good) {
+        struct pm_err why = {0};
         status = pm_equilibrium(m, p, &options, &(struct pm_guess){.at = g.at, .mixed = g.mixed}, c,
                                 volume, f, r, &why);
         if (status != PM_OK) {

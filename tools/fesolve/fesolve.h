@@ -24,8 +24,8 @@ struct fesolve_opts {
     int record_failure;
 };
 
-/* Equilibrium at p (nc) [MPa] into c (undeformed on entry) from the guesses, over a change of shape
- * in 1, 2 or 4 parts, else from the undeformed state; the rest as pm_equilibrium. */
+/* Equilibrium at p (nc) [MPa] into c (undeformed on entry) from the guesses, else from the
+ * undeformed state; the rest as pm_equilibrium. */
 enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m, const double *p,
                                struct pm_config *c, double *volume, double *f,
                                struct pm_solve_report *r, struct pm_err *err);

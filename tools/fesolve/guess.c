@@ -5,8 +5,8 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
-#include "common/mechanics/advect.h"
 #include "common/mechanics/transfer.h"
+#include "common/mechanics/warp.h"
 #include "tools/fesolve/relax.h"
 
 static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
@@ -33,10 +33,6 @@ static enum pm_status guess_load(const char *path, const struct pm_mesh *mesh, s
         for (ptrdiff_t r = 0; r < mesh->nc; r++)
             g->at[r] = g->from.pressure[r] * old->pcase.mu;
         g->same_mesh = same_connectivity(old, mesh);
-        g->same_shape =
-            g->same_mesh && memcmp(old->x, mesh->x, 3 * (size_t)mesh->nn * sizeof *mesh->x) == 0;
-        g->same_mesh &= g->same_shape || mesh->npe == 10; /* advect.h is for these */
-        g->parts = g->same_mesh && !g->same_shape ? 4 : 1;
         g->usable = 1;
     }
 done:
@@ -99,90 +95,35 @@ done:
     return status;
 }
 
-/* One part of the way: c, an equilibrium of shape a, to shape b. m is the model of shape a. */
-static enum pm_status carry(struct guess *g, const struct pm_model *m, const struct pm_mesh *b,
-                            struct pm_config *c, struct pm_err *err)
+/* The guess of another shape of the same elements. */
+static enum pm_status carry(struct guess *g, struct pm_model *m, struct pm_config *c,
+                            struct pm_err *err)
 {
     enum pm_status status;
-    double *still = NULL, *u = NULL;
+    const size_t n = 3 * (size_t)m->mesh->nn;
+    struct pm_warp *w = NULL;
+    double *X = NULL, *u = NULL;
 
-    pm_free(g->mixed);
+    PM_TRY(PM_NEW(X, 3 * m->nn, err)); /* bubbles: 0 */
+    PM_TRY(PM_NEW(u, 3 * m->nn, err));
+    memcpy(X, g->from.mesh.x, n * sizeof *X);
+    memcpy(u, g->from.u, n * sizeof *u);
+    if (g->from.nbubble == m->nn - m->mesh->nn && g->from.nbubble > 0)
+        memcpy(u + n, g->from.bubble, 3 * (size_t)g->from.nbubble * sizeof *u);
+    memcpy(c->U, g->from.U, sizeof c->U);
     PM_TRY(pm_model_mixed_new(m, &g->mixed, err));
-    PM_TRY(PM_NEW(still, 3 * m->nn, err));
-    PM_TRY(PM_NEW(u, 3 * b->nn, err));
-    pm_model_mixed(m, c, still, g->mixed);
-    if (!g->same_shape) {
-        PM_TRY(pm_advect(m->mesh, c->u, b, u, err));
-        memcpy(c->u, u, 3 * (size_t)b->nn * sizeof *u);
-    }
+    PM_TRY(pm_warp_new(m, &w, err));
+    PM_TRY(pm_warp_carry(w, X, u, c, g->mixed, err));
 done:
-    pm_free(still);
+    pm_warp_free(w);
+    pm_free(X);
     pm_free(u);
     return status;
 }
 
-/* Equilibrium of the model at the loads of the guess, from c only. */
-static enum pm_status settle(struct guess *g, struct pm_model *m, struct pm_config *c, int *good,
-                             struct pm_solve_report *r, struct pm_err *err)
+enum pm_status guess_carry(struct guess *g, struct pm_model *m, struct pm_config *c, int *good,
+                           struct pm_solve_report *r, struct pm_err *err)
 {
-    enum pm_status status;
-    struct pm_solve_options options = pm_solve_default;
-    struct pm_solve_report part;
-    struct pm_err why = {0};
-    double *f = NULL, *volume = NULL;
-
-    options.tolerance = 1e-3; /* a way station */
-    PM_TRY(PM_NEW(f, 3 * m->mesh->nn, err));
-    PM_TRY(PM_NEW(volume, m->mesh->nc, err));
-    status = pm_equilibrium(m, g->at, &options, &(struct pm_guess){.at = g->at, .mixed = g->mixed},
-                            c, volume, f, &part, &why);
-    r->newton_steps += part.newton_steps;
-    r->factorisations += part.factorisations;
-    r->backoffs += part.backoffs;
-    *good = status == PM_OK;
-    if (status == PM_NUMERIC)
-        status = PM_OK;
-    else if (status != PM_OK)
-        *err = why;
-done:
-    pm_free(f);
-    pm_free(volume);
-    return status;
-}
-
-enum pm_status guess_carry(struct guess *g, const struct pm_model *model, int parts,
-                           struct pm_config *c, int *good, struct pm_solve_report *r,
-                           struct pm_err *err)
-{
-    enum pm_status status;
-    const struct pm_mesh *old = &g->from.mesh, *mesh = model->mesh;
-    struct pm_mesh between = *mesh;
-    struct pm_model *m = NULL, *next = NULL;
-    double *x = NULL;
-
-    if (!g->same_mesh)
-        return transfer(g, model, c, good, r, err);
     *good = 1;
-    PM_TRY(PM_NEW(x, 3 * mesh->nn * parts, err));
-    memcpy(c->u, g->from.u, 3 * (size_t)mesh->nn * sizeof *c->u);
-    memcpy(c->U, g->from.U, sizeof c->U);
-    PM_TRY(pm_model_new(old, g->from.element, &m, err));
-    for (int k = 1; k < parts && *good; k++) {
-        between.x = x + 3 * mesh->nn * (k - 1);
-        for (ptrdiff_t i = 0; i < 3 * mesh->nn; i++)
-            between.x[i] = old->x[i] + (mesh->x[i] - old->x[i]) * k / parts;
-        PM_TRY(carry(g, m, &between, c, err));
-        PM_TRY(pm_model_new(&between, g->from.element, &next, err));
-        PM_TRY(settle(g, next, c, good, r, err));
-        pm_model_free(m);
-        m = next;
-        next = NULL;
-    }
-    if (*good)
-        PM_TRY(carry(g, m, mesh, c, err));
-done:
-    pm_model_free(m);
-    pm_model_free(next);
-    pm_free(x);
-    return status;
+    return g->same_mesh ? carry(g, m, c, err) : transfer(g, m, c, good, r, err);
 }

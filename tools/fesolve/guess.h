@@ -10,8 +10,7 @@ struct guess {
     double *at;      /* its pressures (nc) [MPa] */
     pm_lanes *mixed; /* of the elements where it was carried to [MPa] */
     int usable;
-    int same_shape, same_mesh;
-    int parts; /* most parts that a change of shape is worth: 1 unless the mesh is the same */
+    int same_mesh; /* but for the positions of its nodes */
 };
 
 /* The one of the files (ends with NULL) whose pressures are nearest to p (nc) [MPa]; usable = 0,
@@ -19,12 +18,10 @@ struct guess {
 enum pm_status guess_choose(const char *const *paths, const struct pm_mesh *mesh, const double *p,
                             struct guess *g, struct pm_err *err);
 void guess_release(struct guess *g);
-/* c = the guess carried to the mesh of m. The same connectivity: advect.h, in `parts` equal parts
- * of the change, with an equilibrium at the loads of the guess after each but the last, and
- * g->mixed; another one: transfer.h and relax.h, no g->mixed. *good = 0 where that fails. The
- * counts of r grow by theirs. */
-enum pm_status guess_carry(struct guess *g, const struct pm_model *model, int parts,
-                           struct pm_config *c, int *good, struct pm_solve_report *r,
-                           struct pm_err *err);
+/* c = the guess carried to the mesh of m. The same connectivity: pm_warp_carry, with g->mixed;
+ * another one: transfer.h and relax.h, no g->mixed. *good = 0 where that fails. The counts of r
+ * grow by theirs. */
+enum pm_status guess_carry(struct guess *g, struct pm_model *m, struct pm_config *c, int *good,
+                           struct pm_solve_report *r, struct pm_err *err);
 
 #endif
