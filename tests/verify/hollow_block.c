@@ -75,7 +75,7 @@ static void read_block(const cJSON *root, struct block *b)
     add_plane(b, b->set[1], PM_FACE_TIP);
     reference_numbers(root, "Xref", m->reference_point, 3);
     snprintf(m->pcase.law, sizeof m->pcase.law, "neo-hookean");
-    reference_numbers(root, "mu", m->pcase.law_parameter, 1);
+    m->pcase.nlaw_parameter = reference_numbers(root, "mu", m->pcase.law_parameter, 1);
     reference_numbers(root, "kappa", &m->pcase.kappa, 1);
 }
 
