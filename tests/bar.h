@@ -1,5 +1,5 @@
-/* A straight bar on a lattice, clamped at z = 0, rigid at the other end: -width/2 <= x, y <=
- * width/2, or half of it, y >= 0, on a symmetry plane. */
+/* A straight bar on a lattice, clamped at z = 0, rigid or free at the other end: -width/2 <= x, y
+ * <= width/2, or half of it, y >= 0, on a symmetry plane. */
 #ifndef BAR_H
 #define BAR_H
 
@@ -13,7 +13,7 @@
 struct bar {
     double width, length; /* [mm] */
     int cells, layers;    /* over the width, an even number; along the bar */
-    int half;
+    int half, free_end;
 };
 
 static inline int bar_solid(const void *data, const int cell[3])
@@ -21,6 +21,15 @@ static inline int bar_solid(const void *data, const int cell[3])
     (void)data;
     (void)cell;
     return 1;
+}
+
+static inline int32_t bar_tag(const struct bar *b, const struct lattice_face *f)
+{
+    if (f->axis == 2 && f->side == 0)
+        return PM_FACE_BASE;
+    if (f->axis == 2 && !b->free_end)
+        return PM_FACE_TIP;
+    return f->axis == 1 && f->side == 0 && b->half ? PM_FACE_SYM_Y : PM_FACE_EXTERIOR;
 }
 
 static inline void bar_case(const struct bar *b, struct pm_mesh *m)
@@ -64,10 +73,7 @@ static inline enum pm_status bar_mesh(const struct bar *b, struct pm_mesh *m, st
         const int n = lattice_faces(&l, cell, at % 6, face);
         for (int k = 0; k < n; k++, m->nf++) {
             memcpy(m->tri + 6 * m->nf, face[k].node, sizeof face[k].node);
-            const int a = face[k].axis, low = face[k].side == 0;
-            m->tri_tag[m->nf] = a == 2                     ? (low ? PM_FACE_BASE : PM_FACE_TIP)
-                                : a == 1 && low && b->half ? PM_FACE_SYM_Y
-                                                           : PM_FACE_EXTERIOR;
+            m->tri_tag[m->nf] = bar_tag(b, &face[k]);
         }
     }
 done:

@@ -202,8 +202,8 @@ int pm_model_patience(const struct pm_model *m)
 {
     double entries, flops;
     pm_cholesky_size(m->factor, &entries, &flops);
-    /* a solve streams the factor twice: measured 35 to 55 flops of a factorisation per entry */
-    return 3 + (int)(0.5 * flops / (50.0 * entries));
+    /* a solve streams the factor twice: measured 50 to 80 flops of a factorisation per entry */
+    return 3 + (int)(0.5 * flops / (80.0 * entries));
 }
 
 enum pm_status pm_model_prepare(struct pm_model *m, const struct pm_config *c, const double *p,
