@@ -36,7 +36,8 @@ law() {
     esac
 }
 
-# Body, size, kind, element, kappa, law, unknowns, tetrahedra, factorisations, CPU seconds, U, V, V0.
+# Body, size, kind, element, kappa, law, unknowns, tetrahedra, factorisations, CPU seconds, U, V, V0, CPU seconds of a
+# factorisation.
 make_row() {
     local body size kind mesh element kappa law cpu unknowns state=${2%.row}.h5 log=${2%.row}.log
     IFS=+ read -r mesh element kappa law <<<"$(basename "$2" .row)"
@@ -47,7 +48,7 @@ make_row() {
     unknowns=$(sed -n 's/^fesolve: \([0-9]*\) unknowns.*/\1/p' "$log" | tail -n 1)
     printf '%s\t' "$body" "$size" "$kind" "$element" "$kappa" "$law" "$unknowns" "$(tetrahedra "$1")" \
         "$(item /solve/factorisations "$state")" "$cpu" "$(item /tip/U "$state")" "$(item /chamber/volume "$state")" >"$2.part"
-    item /chamber/volume0 "$state" >>"$2.part"
+    printf '%s\t%s\n' "$(item /chamber/volume0 "$state")" "$(sed -n 's/^fesolve: factor: .* \([0-9.]*\) s each.*/\1/p' "$log" | tail -n 1)" >>"$2.part"
     mv "$2.part" "$2"
 }
 
@@ -107,7 +108,7 @@ make_cook() {
 
 # Errors [%] of translation (e_pose: of the whole vector), rotation and volume change against the finest row of the same body, kappa and law.
 make_table() {
-    printf 'body\tsize\tkind\telement\tkappa\tlaw\tunknowns\ttets\tfactorisations\tcpu_s\tUx\tUz\ttheta_y\tdV\te_Ux\te_Uz\te_theta\te_dV\te_pose\n'
+    printf 'body\tsize\tkind\telement\tkappa\tlaw\tunknowns\ttets\tfactorisations\tcpu_s\tfactor_s\tUx\tUz\ttheta_y\tdV\te_Ux\te_Uz\te_theta\te_dV\te_pose\n'
     cat "$@" | awk -F '\t' -v OFS='\t' '
         function error(a, b) { return b == 0 ? "-" : sprintf("%.2f", 100 * (a / b - 1)) }
         { row[NR] = $0; key = $1 "+" $5 "+" $6
@@ -118,7 +119,7 @@ make_table() {
                 dx = $11 - x[key]; dz = $13 - z[key]
                 size = sqrt(x[key] ^ 2 + z[key] ^ 2)
                 e = size > 0 ? sprintf("%.2f", 100 * sqrt(dx * dx + dz * dz) / size) : "-"
-                print $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, sprintf("%.4f", $11), sprintf("%.4f", $13),
+                print $1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $19, sprintf("%.4f", $11), sprintf("%.4f", $13),
                     sprintf("%.5f", $15), sprintf("%.2f", $17 - $18), error($11, x[key]), error($13, z[key]),
                     error($15, t[key]), error($17 - $18, v[key]), e
             }

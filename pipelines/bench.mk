@@ -14,9 +14,9 @@ BENCH_SIZES ?= 5.5 4 3.2 2.6 1.7 1.6
 # Runs of which the median counts, where one takes less than 20 s.
 BENCH_REPEATS ?= 3
 R := $(BENCH_RUN)
-BENCH = BIN='$B/bin' PRESSURE='$(BENCH_PRESSURE)' REPEATS='$(BENCH_REPEATS)' pipelines/bench.sh
+BENCH = BIN='$B/bin' LIB='$B/tests/lib' PRESSURE='$(BENCH_PRESSURE)' REPEATS='$(BENCH_REPEATS)' pipelines/bench.sh
 BENCH_TOOLS := $(addprefix $B/bin/,surfgen tetmesh fesolve meshexport)
-BENCH_ROWS := $(BENCH_SIZES:%=$R/tet10-blend-%.row) $(BENCH_COMPARE:%=$R/tet10-%.row) $(BENCH_COMPARE:%=$R/calculix-%.row)
+BENCH_ROWS := $(BENCH_SIZES:%=$R/tet10-blend-%.row) $(BENCH_COMPARE:%=$R/tet10-%.row) $(BENCH_COMPARE:%=$R/calculix-%.row) $R/dgemm.row
 
 .PHONY: bench bench-results
 .PRECIOUS: $R/surf.h5 $R/mesh-%.h5 $R/calculix-%/job.dat
@@ -38,6 +38,8 @@ $R/calculix-%/job.dat: $R/mesh-%.h5 | $B/bin/meshexport
 	$(BENCH) calculix $< $@
 $R/calculix-%.row: $R/calculix-%/job.dat $R/tet10-%.row $B/bin/meshexport
 	$(BENCH) compare $R/tet10-$*.h5 $< $@
+$R/dgemm.row: $B/tests/lib/dgemm
+	$(BENCH) dgemm $@
 $R/bench.tsv: $(BENCH_ROWS)
 	$(BENCH) table $^ >$@
 $R/bench.png: $R/bench.tsv pipelines/pictures/bench.gp

@@ -1,9 +1,9 @@
 #!/bin/bash
-# bench.sh fesolve MESH.h5 ELEMENT ROW | calculix MESH.h5 JOB.dat | compare STATE.h5 JOB.dat ROW | table ROW.. | report TABLE
+# bench.sh fesolve MESH.h5 ELEMENT ROW | calculix MESH.h5 JOB.dat | compare STATE.h5 JOB.dat ROW | dgemm ROW | table ROW.. | report TABLE
 # The measurements of bench.mk: CPU seconds (user and system) of one thread, from zero to PRESSURE. A row: name, unknowns,
 # elements, factorisations (CalculiX: iterations, each factors), CPU seconds, of them those until CalculiX would have
 # stopped by itself, the pose, for CalculiX its distance from fesolve's, for fesolve the entries of the factor, the
-# operations of a factorisation in 1e9, and those of all factorisations over all CPU seconds in 1e9/s.
+# operations of a factorisation in 1e9, and its rate in 1e9/s, of the CPU seconds in factorisations.
 set -eu
 . pipelines/measure.sh
 
@@ -22,8 +22,8 @@ measure_fesolve() {
     fi
     unknowns=$(sed -n 's/^fesolve: \([0-9]*\) unknowns.*/\1/p' "$log" | tail -n 1)
     factorisations=$(item /solve/factorisations "$state")
-    factor=$(awk -v n="$factorisations" -v s="$seconds" '/^fesolve: factor: / { entries = $3; flops = $5 }
-        END { printf "%.3g\t%.3g\t%.2f", entries, flops / 1e9, n * flops / 1e9 / s }' "$log")
+    factor=$(awk '/^fesolve: factor: / { entries = $3; flops = $5; rate = $11 }
+        END { printf "%.3g\t%.3g\t%s", entries, flops / 1e9, rate }' "$log")
     printf 'fesolve %s\t%s\t%s\t%s\t%s\t%s\t%s\t-\t-\t%s\n' "$element" "$unknowns" "$(tetrahedra "$mesh")" \
         "$factorisations" "$seconds" "$seconds" "$(item /tip/U "$state")" "$factor" >"$row.part"
     mv "$row.part" "$row"
@@ -68,11 +68,15 @@ table() {
 report() {
     cut -f 1-6,13- "$1" | column -t -s "$(printf '\t')"
     awk -F '\t' '$1 == "fesolve tet10" { cpu[$2] = $5 }
+        $1 == "DGEMM" { most = $17 }
+        $1 == "fesolve tet10-blend" && $2 > 60000 { rate[$2] = $17 }
         $1 ~ /^CalculiX/ { there[$2] = $5; early[$2] = $6 }
         END {
             for (n in there)
                 printf "%d unknowns: fesolve %.1f CPU s, CalculiX %.1f (%.1f at its default stop): %.0f (%.0f) times\n",
                     n, cpu[n], there[n], early[n], there[n] / cpu[n], early[n] / cpu[n]
+            for (n in rate)
+                printf "%d unknowns: factorisations at %.1f GFlop/s, %.0f %% of DGEMM (%.1f)\n", n, rate[n], 100 * rate[n] / most, most
         }' "$1" | sort -n
 }
 
@@ -82,4 +86,5 @@ calculix) measure_calculix "$2" "$3" ;;
 compare) write_comparison "$2" "$3" "$4" ;;
 table) shift && table "$@" ;;
 report) report "$2" ;;
+dgemm) printf 'DGEMM\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t-\t%s\n' "$("$LIB/dgemm")" >"$2" ;;
 esac
