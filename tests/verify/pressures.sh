@@ -19,8 +19,8 @@ path() {
     "$BIN/fesolve" --tolerance 1e-10 --path "$work/path.txt" "$work/$1.h5" -o "$work/path.h5"
 }
 
-# jacobian P1 P2 ..: central differences, h = 2e-6, of each pressure in turn. Walls under suction are near to buckling: h^2 U'''/6 is seen,
-# with residuals up to 1e-7 (5e-7 at h = 1e-5).
+# jacobian CHAMBERS: central differences, h = 2e-6, of each pressure in turn. Walls under suction are near to buckling:
+# h^2 U'''/6 is 5e-7 at h = 1e-5; with residuals of 1e-10 over h seen up to 1e-7.
 jacobian() {
     awk -v p="$(numbers /path/pressure "$work/path.h5")" -v u="$(numbers /path/U "$work/path.h5")" \
         -v j="$(numbers /path/J "$work/path.h5")" -v nc="$1" 'BEGIN {
