@@ -18,6 +18,16 @@ check "first trial accepted and better" awk -F '\t' \
 check "seconds of every stage" grep -qP '^it002\tfesolve 03\t[0-9.]+$' "$work/first/times.tsv"
 check "the second iteration reconstructs its surfaces" test -e "$work/first/it002/surf.h5" -a ! -e "$work/first/it001/surf.h5"
 
+# The states of an iteration start from those of the one before; of four the second and third bound the median.
+factorisations() {
+    local state
+    for state in "$work/first/$1"/state-0?.h5; do
+        h5dump -y -d /solve/factorisations "$state" | sed -n 's/^ *\([0-9][0-9]*\)$/\1/p'
+    done | sort -n | sed -n 3p
+}
+check "from zero at most 8 factorisations, median" test "$(factorisations it000)" -le 8
+check "from the previous iteration at most 2, median" test "$(factorisations it001)" -le 2
+
 check "the same again" run second 2
 same() {
     local file

@@ -34,6 +34,7 @@ within() {
 check "mesh" mesh curved -setnumber size 2.5
 check "mesh with straight edges" mesh straight -setnumber size 2.5 -setnumber straight 1
 check "tet10-blend" solve curved tet10-blend
+check "from zero in at most 8 factorisations" test "$(number /solve/factorisations 1 "$work/state.h5")" -le 8
 check "tet10" solve curved tet10
 check "tet10, straight edges" solve straight tet10
 sed 's/^/# /' "$work/table"
