@@ -115,6 +115,8 @@ static double look_across(const struct look *l, int32_t a, int32_t b, double bes
     for (int k = 0; k < 3; k++) {
         const double *x = s->y + 3 * v[k];
         double q[3], dn = 0, dm = 0;
+        if (v[k] == w[0] || v[k] == w[1] || v[k] == w[2])
+            continue; /* rounding would make a distance of it */
         const double d =
             pm_collide_closest(x, s->y + 3 * w[0], s->y + 3 * w[1], s->y + 3 * w[2], q);
         for (int i = 0; i < 3; i++) {
