@@ -6,7 +6,7 @@
 #include "common/mechanics/tensor.h"
 
 /* Of residuals where the factor is an older one. */
-static const double tolerance = 1e-10;
+static const double tolerance = 1e-11;
 
 enum pm_status pm_jacobian(struct pm_model *m, const struct pm_config *c, double scale, double *Jq,
                            double *J, struct pm_err *err)

@@ -44,7 +44,7 @@ static void orthonormal_modes(const struct pm_element_type *t, const double *w, 
 double pm_element_geometry(const struct pm_element_type *t, const double *X, int lane, pm_lanes *dN,
                            pm_lanes *w, pm_lanes *phi)
 {
-    double low = INFINITY, weight[NQ], mode[PM_MOST_MODES * NQ];
+    double low = INFINITY, weight[NQ], mode[PM_MOST_MODES * NQ] = {0};
     for (int q = 0; q < t->nq; q++) {
         double ref[3 * NODES], D[9], C[9];
         pm_element_shape_gradient(t, q, ref);

@@ -85,7 +85,9 @@ static enum pm_status load_step(struct pm_newton *s, struct path *path, double l
     path->predicted = s->residual;
     pm_log(2, "load %.4f: predicted, residual %.2e", next, s->residual);
     pm_model_mixed(s->m, &path->base, path->step1, s->mixed);
-    status = pm_newton_solve(s, c, next < 1.0 ? path_tolerance : s->o->tolerance, 1, reached, err);
+    /* what the base leaves must not use up the limit of the next predictor */
+    double rough = fmin(path_tolerance, 0.1 * path->longest);
+    status = pm_newton_solve(s, c, next < 1.0 ? rough : s->o->tolerance, 1, reached, err);
 done:
     return status;
 }

@@ -22,9 +22,10 @@ struct invariants {
 
 static void invariants_at(const struct pm_law *law, const pm_lanes F[9], struct invariants *v)
 {
-    pm_lanes *C = v->g[JJ];
+    pm_lanes C[9];
     v->n = law->kind == PM_LAW_MOONEY_RIVLIN ? 3 : 2;
     v->i[JJ] = pm_lanes_cofactor(F, C);
+    memcpy(v->g[JJ], C, sizeof C);
     v->i[I1] = pm_lanes_dot9(F, F);
     for (int l = 0; l < PM_LANES; l++)
         v->r[l] = 1.0 / cbrt(v->i[JJ][l]);
