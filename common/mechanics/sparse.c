@@ -31,6 +31,22 @@ static void *borrow(const void *p)
     return u.m;
 }
 
+/* The pattern in compressed columns; what lies above the diagonal does not count. */
+static cholmod_sparse lower_triangle(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *row)
+{
+    return (cholmod_sparse){.nrow = (size_t)n,
+                            .ncol = (size_t)n,
+                            .nzmax = (size_t)ptr[n],
+                            .p = borrow(ptr),
+                            .i = borrow(row),
+                            .stype = -1,
+                            .itype = CHOLMOD_LONG,
+                            .xtype = CHOLMOD_PATTERN,
+                            .dtype = CHOLMOD_DOUBLE,
+                            .sorted = 1,
+                            .packed = 1};
+}
+
 /* perm followed by a postorder of its elimination tree: children before parents, subtrees together,
  * as supernodes want them. */
 static enum pm_status postorder(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_t *adj,
@@ -45,17 +61,7 @@ static enum pm_status postorder(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff
     cm.nmethods = 1;
     cm.method[0].ordering = CHOLMOD_GIVEN;
     cm.postorder = 1;
-    cholmod_sparse graph = {.nrow = (size_t)n,
-                            .ncol = (size_t)n,
-                            .nzmax = (size_t)ptr[n],
-                            .p = borrow(ptr),
-                            .i = borrow(adj),
-                            .stype = -1,
-                            .itype = CHOLMOD_LONG,
-                            .xtype = CHOLMOD_PATTERN,
-                            .dtype = CHOLMOD_DOUBLE,
-                            .sorted = 1,
-                            .packed = 1};
+    cholmod_sparse graph = lower_triangle(n, ptr, adj);
     tree = cholmod_l_analyze_p(&graph, perm, NULL, 0, &cm);
     if (tree == NULL)
         status = pm_fail(err, PM_SYSTEM, "CHOLMOD cannot order a graph of %td nodes (status %d)", n,
@@ -115,17 +121,7 @@ enum pm_status pm_cholesky_new(ptrdiff_t n, const ptrdiff_t *ptr, const ptrdiff_
     cm->nmethods = 1;
     cm->method[0].ordering = CHOLMOD_NATURAL;
     cm->postorder = 0; /* it is one: no copy of the matrix at each factorisation */
-    c->matrix = (cholmod_sparse){.nrow = (size_t)n,
-                                 .ncol = (size_t)n,
-                                 .nzmax = (size_t)ptr[n],
-                                 .p = borrow(ptr),
-                                 .i = borrow(row),
-                                 .stype = -1,
-                                 .itype = CHOLMOD_LONG,
-                                 .xtype = CHOLMOD_PATTERN,
-                                 .dtype = CHOLMOD_DOUBLE,
-                                 .sorted = 1,
-                                 .packed = 1};
+    c->matrix = lower_triangle(n, ptr, row);
     c->factor = cholmod_l_analyze(&c->matrix, cm);
     if (c->factor == NULL || cm->status < CHOLMOD_OK) {
         enum pm_status status =
