@@ -23,7 +23,8 @@ PKG_CONFIG ?= pkg-config
 HDF5_CFLAGS := $(shell $(PKG_CONFIG) --cflags hdf5-serial 2>/dev/null || $(PKG_CONFIG) --cflags hdf5 2>/dev/null)
 HDF5_LIBS := $(shell $(PKG_CONFIG) --libs hdf5-serial 2>/dev/null || $(PKG_CONFIG) --libs hdf5 2>/dev/null) 
 
-WARN := -Wall -Wextra -Wshadow -Wconversion -Wcast-qual -Wwrite-strings -Wundef -Wvla -Wformat=2 \
+# Vectors of eight doubles go between our own functions alone, all compiled alike: no ABI to keep.
+WARN := -Wno-psabi -Wall -Wextra -Wshadow -Wconversion -Wcast-qual -Wwrite-strings -Wundef -Wvla -Wformat=2 \
 	-Wstrict-prototypes -Wmissing-prototypes -Wdouble-promotion $(WERROR)
 ALL_CFLAGS = -std=c17 -pedantic -D_POSIX_C_SOURCE=200809L -DPM_VERSION='"$(VERSION)"' $(WARN) \
 	$(if $(ARCH),-march=$(ARCH)) -fno-math-errno -ffp-contract=fast $(CFLAGS) $(SANFLAGS) -I. -isystem /usr/include/suitesparse \
