@@ -154,7 +154,8 @@ static int take_orbit(const struct pm_case *c, enum pm_form form, ptrdiff_t inde
         if (!pm_load_symmetry(c, g))
             continue;
         const int *to = c->symmetry.chamber[g];
-        struct point image = {.face = q.face < 0 ? -1 : to[q.face], .sign = q.sign};
+        struct point image = q;
+        image.face = q.face < 0 ? -1 : to[q.face];
         for (ptrdiff_t r = 0; r < c->nchambers; r++)
             image.place[to[r]] = q.place[r];
         const ptrdiff_t k = index_of(c, &image);
