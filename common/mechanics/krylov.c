@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "common/base/memory.h"
+#include "common/mechanics/tensor.h"
 
 enum { MOST_STEPS = 200 };
 
@@ -22,14 +23,6 @@ struct column {
     int steps, open;
     double diagonal[MOST_STEPS], off[MOST_STEPS];
 };
-
-static double dot(ptrdiff_t n, const double *a, const double *b)
-{
-    double s = 0.0;
-    for (ptrdiff_t k = 0; k < n; k++)
-        s += a[k] * b[k];
-    return s;
-}
 
 /* y = K x, lower triangle by columns */
 static void multiply(const struct pm_model *m, const double *x, double *y)
@@ -86,16 +79,16 @@ static int advance(const struct pm_model *m, const struct stiffening *st, struct
                    const double *z, double *Kp)
 {
     int step = c->steps++;
-    double rz = dot(m->nq, c->r, z), beta = step > 0 ? rz / c->rz : 0.0, last = c->alpha;
+    double rz = pm_dot(m->nq, c->r, z), beta = step > 0 ? rz / c->rz : 0.0, last = c->alpha;
     for (ptrdiff_t k = 0; k < m->nq; k++)
         c->p[k] = z[k] + beta * c->p[k];
     multiply(m, c->p, Kp);
     if (st->b != NULL) {
-        double s = st->gamma * dot(m->nq, st->b, c->p);
+        double s = st->gamma * pm_dot(m->nq, st->b, c->p);
         for (ptrdiff_t k = 0; k < m->nq; k++)
             Kp[k] += s * st->b[k];
     }
-    double pKp = dot(m->nq, c->p, Kp);
+    double pKp = pm_dot(m->nq, c->p, Kp);
     c->rz = rz;
     if (!(pKp > 0.0))
         return 0;
@@ -116,7 +109,7 @@ static enum pm_status precondition(struct pm_model *m, const struct stiffening *
     enum pm_status status = pm_cholesky_solve(m->factor, z, n, err);
     for (ptrdiff_t k = 0; k < n && st->b != NULL && status == PM_OK; k++) {
         double *x = z + k * m->nq,
-               s = st->gamma * dot(m->nq, st->b, x) / (1.0 + st->gamma * st->bz);
+               s = st->gamma * pm_dot(m->nq, st->b, x) / (1.0 + st->gamma * st->bz);
         for (ptrdiff_t i = 0; i < m->nq; i++)
             x[i] -= s * st->z[i];
     }
@@ -131,7 +124,7 @@ static enum pm_status iterate(struct pm_model *m, const struct stiffening *st, s
     for (;; report->steps++) {
         int open = 0;
         for (ptrdiff_t k = 0; k < n; k++) {
-            col[k].open = dot(m->nq, col[k].r, col[k].r) > tolerance * tolerance * col[k].rr0;
+            col[k].open = pm_dot(m->nq, col[k].r, col[k].r) > tolerance * tolerance * col[k].rr0;
             open |= col[k].open;
         }
         report->good = !open;
@@ -171,7 +164,7 @@ static enum pm_status solve(struct pm_model *m, const struct stiffening *st, dou
     memcpy(store, x, (size_t)(n * nq) * sizeof *x);
     memset(x, 0, (size_t)(n * nq) * sizeof *x);
     for (ptrdiff_t k = 0; k < n; k++)
-        col[k].rr0 = dot(nq, col[k].r, col[k].r);
+        col[k].rr0 = pm_dot(nq, col[k].r, col[k].r);
     PM_TRY(iterate(m, st, col, store + 2 * n * nq, n, tolerance,
                    limit < MOST_STEPS ? limit : MOST_STEPS, store + 3 * n * nq, report, err));
 done:
@@ -195,7 +188,7 @@ enum pm_status pm_krylov_solve_stiffened(struct pm_model *m, const double *b, do
     PM_TRY(PM_NEW(st.z, m->nq, err));
     memcpy(st.z, b, (size_t)m->nq * sizeof *b);
     PM_TRY(pm_cholesky_solve(m->factor, st.z, 1, err));
-    st.bz = dot(m->nq, b, st.z);
+    st.bz = pm_dot(m->nq, b, st.z);
     st.gamma = 10.0 / st.bz;
     PM_TRY(solve(m, &st, x, n, tolerance, limit, report, err));
 done:

@@ -7,6 +7,7 @@
 #include "common/base/memory.h"
 #include "common/mechanics/krylov.h"
 #include "common/mechanics/newton.h"
+#include "common/mechanics/tensor.h"
 
 /* Pressure control ends here, volume control begins: it needs no halving down to the limit. */
 static const double last_step = 1.0 / 32;
@@ -51,14 +52,6 @@ static void work_gradient(struct control *k, const struct pm_config *c)
     }
 }
 
-static double dot(ptrdiff_t n, const double *a, const double *b)
-{
-    double s = 0.0;
-    for (ptrdiff_t i = 0; i < n; i++)
-        s += a[i] * b[i];
-    return s;
-}
-
 /* Newton correction at c to w = target: dq into s.dq, the change of the factor returned in *dl, the
  * slope in k->slope. *good = 0: no convergence of the linear solver. */
 static enum pm_status correction(struct control *k, const struct pm_config *c, double target,
@@ -77,9 +70,9 @@ static enum pm_status correction(struct control *k, const struct pm_config *c, d
     }
     PM_TRY(pm_krylov_solve_stiffened(m, k->b, k->x, 2, 1e-8, 200, &report, err));
     *good = report.good;
-    double by = dot(nq, k->b, y), gamma = report.gamma;
+    double by = pm_dot(nq, k->b, y), gamma = report.gamma;
     /* K_g dq = -g + (dl + gamma dw) b,  b . dq = dw */
-    double a = (dw - dot(nq, k->b, k->x)) / by;
+    double a = (dw - pm_dot(nq, k->b, k->x)) / by;
     *dl = a - gamma * dw;
     k->slope = 1.0 / by - gamma; /* of K t = slope b, b . t = 1 */
     for (ptrdiff_t i = 0; i < nq; i++)

@@ -42,6 +42,14 @@ void pm_newton_release(struct pm_newton *s)
     *s = (struct pm_newton){0};
 }
 
+static double largest(const struct pm_newton *s)
+{
+    double most = 0.0;
+    for (ptrdiff_t k = 0; k < s->m->nq; k++)
+        most = fmax(most, fabs(s->g[k]));
+    return most;
+}
+
 void pm_newton_measure_load(struct pm_newton *s, const double *p)
 {
     for (ptrdiff_t k = 0; k < 3 * s->m->nn; k++)
@@ -50,12 +58,9 @@ void pm_newton_measure_load(struct pm_newton *s, const double *p)
         s->trial.U[k] = 0.0;
     s->load_norm = 0.0;
     for (ptrdiff_t r = 0; r < s->m->mesh->nc; r++) {
-        double most = 0.0;
         pm_model_volume_gradient(s->m, &s->trial, r, s->nodal);
         pm_model_reduce(s->m, &s->trial, s->nodal, s->g);
-        for (ptrdiff_t k = 0; k < s->m->nq; k++)
-            most = fmax(most, fabs(s->g[k]));
-        s->load_norm = fmax(s->load_norm, fabs(p[r]) * most);
+        s->load_norm = fmax(s->load_norm, fabs(p[r]) * largest(s));
     }
 }
 
@@ -68,15 +73,12 @@ int pm_newton_refuse(struct pm_newton *s, const char *why, double value)
 
 int pm_newton_evaluate(struct pm_newton *s, const struct pm_config *c)
 {
-    double most = 0.0;
     s->Pi = pm_model_potential(s->m, c, s->p, s->f, s->volume, &s->r->min_det_F);
     s->residual = INFINITY;
     if (!(s->r->min_det_F > s->o->min_det) || !isfinite(s->Pi))
         return 0;
     pm_model_reduce(s->m, c, s->f, s->g);
-    for (ptrdiff_t k = 0; k < s->m->nq; k++)
-        most = fmax(most, fabs(s->g[k]));
-    s->residual = most / s->load_norm;
+    s->residual = largest(s) / s->load_norm;
     return 1;
 }
 

@@ -38,6 +38,15 @@ static inline void pm_tmul3(const double M[9], const double v[3], double y[3])
         y[i] = M[i] * v[0] + M[3 + i] * v[1] + M[6 + i] * v[2];
 }
 
+/* a . b of n numbers */
+static inline double pm_dot(ptrdiff_t n, const double *a, const double *b)
+{
+    double s = 0.0;
+    for (ptrdiff_t i = 0; i < n; i++)
+        s += a[i] * b[i];
+    return s;
+}
+
 static inline double pm_dot3(const double a[3], const double b[3])
 {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

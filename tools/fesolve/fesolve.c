@@ -72,22 +72,18 @@ enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m,
                                struct pm_config *c, double *volume, double *f,
                                struct pm_solve_report *r, struct pm_err *err)
 {
-    enum pm_status status = PM_NUMERIC;
+    enum pm_status status;
     struct pm_solve_options options = pm_solve_default;
     struct pm_solve_report spent = {0};
     struct guess g = {.usable = 0};
-    struct pm_config undeformed = {0};
-    int good;
+    int good = 0;
 
     options.tolerance = o->tolerance;
-    PM_TRY(pm_config_new(m, &undeformed, err));
     PM_TRY(guess_choose(o->guess, m->mesh, p, &g, err));
-    status = PM_NUMERIC;
-    if (g.usable) {
+    if (g.usable)
         PM_TRY(guess_carry(&g, m, c, &good, &spent, err));
-        status = PM_NUMERIC;
-    }
-    if (g.usable && good) {
+    status = PM_NUMERIC;
+    if (good) {
         struct pm_err why = {0};
         status = pm_equilibrium(m, p, &options, &(struct pm_guess){.at = g.at, .mixed = g.mixed}, c,
                                 volume, f, r, &why);
@@ -102,7 +98,6 @@ enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m,
         if (g.usable)
             pm_warn(
                 "the guess does not lead to an equilibrium: starting from the undeformed state");
-        pm_config_copy(m, &undeformed, c);
         status = pm_equilibrium(m, p, &options, NULL, c, volume, f, r, err);
     }
     r->factorisations += spent.factorisations;
@@ -110,7 +105,6 @@ enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m,
     r->backoffs += spent.backoffs;
 done:
     guess_release(&g);
-    pm_config_release(&undeformed);
     return status;
 }
 
