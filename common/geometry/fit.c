@@ -4,7 +4,7 @@
 #include <string.h>
 
 #include "common/base/memory.h"
-#include "common/mechanics/sparse.h"
+#include "common/base/sparse.h"
 
 /* C (nq x n) by rows and by columns, and the lower triangle of C^T W C + alpha I in elimination
  * order. */

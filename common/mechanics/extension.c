@@ -4,7 +4,7 @@
 
 #include "common/base/memory.h"
 #include "common/mechanics/pattern.h"
-#include "common/mechanics/sparse.h"
+#include "common/base/sparse.h"
 #include "common/mechanics/tet10.h"
 
 struct pm_extension {

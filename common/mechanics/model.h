@@ -14,7 +14,7 @@
 #include "common/mechanics/element.h"
 #include "common/mechanics/pattern.h"
 #include "common/mechanics/rotation.h"
-#include "common/mechanics/sparse.h"
+#include "common/base/sparse.h"
 
 enum { PM_NODE_FREE = 0, PM_NODE_CLAMPED = 1, PM_NODE_TIP = 2 };
 

@@ -3,7 +3,7 @@
 #include <stdlib.h>
 
 #include "common/base/memory.h"
-#include "common/mechanics/sparse.h"
+#include "common/base/sparse.h"
 
 static int compare(const void *a, const void *b)
 {

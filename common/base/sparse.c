@@ -1,4 +1,4 @@
-#include "common/mechanics/sparse.h"
+#include "common/base/sparse.h"
 
 #include <cblas.h>
 #include <cholmod.h>
