@@ -19,7 +19,7 @@ void pm_boxes_free(struct pm_boxes *boxes);
  * returns their number. */
 ptrdiff_t pm_boxes_meet(const struct pm_boxes *boxes, const double box[6], int32_t *id);
 
-/* Looks at item id and returns the lesser of `best` and its distance [mm]. */
+/* Looks at item id and returns the new best: the lesser of `best` and its distance [mm]. */
 typedef double pm_boxes_visit(void *data, int32_t id, double best);
 /* Visits the items whose boxes are nearer to x than the best distance so far, near ones first;
  * returns the best. */

@@ -2,7 +2,6 @@
 
 #include <gsl/gsl_bspline.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "common/base/memory.h"
@@ -356,33 +355,54 @@ void pm_map_middle(int32_t type, const double a[3], const double b[3], double ou
         out[2] = (a[2] + b[2]) / 2;
 }
 
-static int ascending(const void *a, const void *b)
+/* The k + 1 least squared distances from x so far, ascending; its own is the first, 0. */
+struct ranking {
+    const double *Phi, *x;
+    double *least;
+    ptrdiff_t k;
+};
+
+static double rank_point(void *data, int32_t id, double best)
 {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
+    struct ranking *r = data;
+    const double *P = &r->Phi[3 * (ptrdiff_t)id];
+    const double x = r->x[0] - P[0], y = r->x[1] - P[1], z = r->x[2] - P[2];
+    const double s = x * x + y * y + z * z;
+    ptrdiff_t at = r->k;
+
+    if (!(s < r->least[at]))
+        return best;
+    for (; at > 0 && s < r->least[at - 1]; at--)
+        r->least[at] = r->least[at - 1];
+    r->least[at] = s;
+    return sqrt(r->least[r->k]);
 }
 
 enum pm_status pm_map_support(ptrdiff_t n, const double *Phi, ptrdiff_t k, double *d0,
                               struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    double *s = NULL;
+    struct pm_boxes *boxes = NULL;
+    double *box = NULL, *least = NULL;
 
     if (n <= k)
         return pm_fail(err, PM_INPUT, "surface has %td control points, expected more than %td", n,
                        k);
-    PM_TRY(PM_NEW(s, n, err));
+    PM_TRY(PM_NEW(box, 6 * n, err));
+    PM_TRY(PM_NEW(least, k + 1, err));
+    for (ptrdiff_t i = 0; i < 6 * n; i++)
+        box[i] = Phi[i / 6 * 3 + i % 3];
+    PM_TRY(pm_boxes_new(n, box, NULL, &boxes, err));
     for (ptrdiff_t i = 0; i < n; i++) {
-        for (ptrdiff_t j = 0; j < n; j++) {
-            double x = Phi[3 * i] - Phi[3 * j], y = Phi[3 * i + 1] - Phi[3 * j + 1];
-            double z = Phi[3 * i + 2] - Phi[3 * j + 2];
-            s[j] = x * x + y * y + z * z;
-        }
-        qsort(s, (size_t)n, sizeof *s, ascending); /* s[0] is the point itself */
-        d0[i] = sqrt(s[k]);
+        struct ranking r = {.Phi = Phi, .x = &Phi[3 * i], .least = least, .k = k};
+        for (ptrdiff_t j = 0; j <= k; j++)
+            least[j] = INFINITY;
+        d0[i] = pm_boxes_nearest(boxes, r.x, INFINITY, rank_point, &r);
     }
 done:
-    pm_free(s);
+    pm_boxes_free(boxes);
+    pm_free(box);
+    pm_free(least);
     return status;
 }
 

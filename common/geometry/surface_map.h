@@ -41,7 +41,7 @@ void pm_map_move(int32_t type, const double S[3], const double d[2], double out[
 /* Parameter halfway between two (start of a mid-side node), on the reference shape. */
 void pm_map_middle(int32_t type, const double a[3], const double b[3], double out[3]);
 
-/* d0 (n): chord distance to the k-th nearest other control point [paper 56]. Cost n^2. */
+/* d0 (n): chord distance to the k-th nearest other control point [paper 56]. Cost n k log n. */
 enum pm_status pm_map_support(ptrdiff_t n, const double *Phi, ptrdiff_t k, double *d0,
                               struct pm_err *err);
 /* Sum of the kernels of a sphere map at S, 0 in a hole; the map is sound where it is >= 1
