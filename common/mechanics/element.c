@@ -20,25 +20,40 @@ double pm_element_blend(const struct pm_element_type *type, const struct pm_law 
 
 /* ---- geometry ---- */
 
-/* Modes 1, xi_1, xi_2, xi_3 made orthonormal (modified Gram-Schmidt). */
-static void orthonormal_modes(const struct pm_element_type *t, const double *w, double *phi)
+void pm_element_modes(const struct pm_element_type *t, int n, const double (*xi)[3],
+                      const double *w, double *phi)
 {
     for (int k = 0; k < t->modes; k++) {
-        double *p = phi + k * t->nq, norm = 0.0;
-        for (int q = 0; q < t->nq; q++)
-            p[q] = k == 0 ? 1.0 : t->xi[q][k - 1];
+        double *p = phi + k * n, norm = 0.0;
+        for (int q = 0; q < n; q++)
+            p[q] = k == 0 ? 1.0 : xi[q][k - 1];
         for (int l = 0; l < k; l++) {
             double s = 0.0;
-            for (int q = 0; q < t->nq; q++)
-                s += w[q] * p[q] * phi[l * t->nq + q];
-            for (int q = 0; q < t->nq; q++)
-                p[q] -= s * phi[l * t->nq + q];
+            for (int q = 0; q < n; q++)
+                s += w[q] * p[q] * phi[l * n + q];
+            for (int q = 0; q < n; q++)
+                p[q] -= s * phi[l * n + q];
         }
-        for (int q = 0; q < t->nq; q++)
+        for (int q = 0; q < n; q++)
             norm += w[q] * p[q] * p[q];
-        for (int q = 0; q < t->nq; q++)
+        for (int q = 0; q < n; q++)
             p[q] /= sqrt(norm);
     }
+}
+
+double pm_element_gradients(const struct pm_element_type *t, const double *X, const double xi[3],
+                            double *dN)
+{
+    double ref[3 * NODES], D[9], C[9];
+    pm_element_shape_gradient(t, xi, ref);
+    pm_gradient(t->npe, X, ref, D); /* D_iJ = dX_i/dxi_J */
+    double det = pm_cofactor(D, C);
+    /* dN/dX_i = dN/dxi_J (D^-1)_Ji, (D^-1)_Ji = C_iJ / det */
+    for (int a = 0; a < t->npe; a++)
+        pm_mul3(C, ref + 3 * a, dN + 3 * a);
+    for (int k = 0; k < 3 * t->npe; k++)
+        dN[k] /= det;
+    return det;
 }
 
 double pm_element_geometry(const struct pm_element_type *t, const double *X, int lane, pm_lanes *dN,
@@ -46,23 +61,15 @@ double pm_element_geometry(const struct pm_element_type *t, const double *X, int
 {
     double low = INFINITY, weight[NQ], mode[PM_MOST_MODES * NQ] = {0};
     for (int q = 0; q < t->nq; q++) {
-        double ref[3 * NODES], D[9], C[9];
-        pm_element_shape_gradient(t, q, ref);
-        pm_gradient(t->npe, X, ref, D); /* D_iJ = dX_i/dxi_J */
-        double det = pm_cofactor(D, C);
+        double at[3 * NODES], det = pm_element_gradients(t, X, t->xi[q], at);
         low = fmin(low, det);
         weight[q] = t->weight[q] * det;
         w[q][lane] = weight[q];
-        /* dN/dX_i = dN/dxi_J (D^-1)_Ji, (D^-1)_Ji = C_iJ / det */
-        for (int a = 0; a < t->npe; a++)
-            for (int i = 0; i < 3; i++)
-                dN[3 * (t->npe * q + a) + i][lane] =
-                    (C[3 * i] * ref[3 * a] + C[3 * i + 1] * ref[3 * a + 1] +
-                     C[3 * i + 2] * ref[3 * a + 2]) /
-                    det;
+        for (int k = 0; k < 3 * t->npe; k++)
+            dN[3 * t->npe * q + k][lane] = at[k];
     }
     if (low > 0.0) {
-        orthonormal_modes(t, weight, mode);
+        pm_element_modes(t, t->nq, t->xi, weight, mode);
         for (int k = 0; k < t->modes * t->nq; k++)
             phi[k][lane] = mode[k];
     }

@@ -22,6 +22,14 @@ struct pm_element {
 
 double pm_element_blend(const struct pm_element_type *type, const struct pm_law *law);
 
+/* Gradients dN_a/dX (npe x 3) [1/mm] at the reference point xi of an element X (npe x 3); returns
+ * det dX/dxi. */
+double pm_element_gradients(const struct pm_element_type *type, const double *X, const double xi[3],
+                            double *dN);
+/* Modes of the dilatation at n points: 1, xi_1, xi_2, xi_3 made orthonormal in the sum over w
+ * (modified Gram-Schmidt); phi (modes x n). Points of weight 0 are only evaluated. */
+void pm_element_modes(const struct pm_element_type *type, int n, const double (*xi)[3],
+                      const double *w, double *phi);
 /* Geometry of one element X (npe x 3) in lane l: dN, w, phi. Returns the smallest det dX/dxi at the
  * points; where that is not positive nothing is of use. */
 double pm_element_geometry(const struct pm_element_type *type, const double *X, int lane,

@@ -71,9 +71,8 @@ static void bubble_gradient(const double L[4], int without, double s, double dN[
     }
 }
 
-void pm_element_shape_gradient(const struct pm_element_type *t, int q, double *dN)
+void pm_element_shape_gradient(const struct pm_element_type *t, const double xi[3], double *dN)
 {
-    const double *xi = t->xi[q];
     const double L[4] = {1 - xi[0] - xi[1] - xi[2], xi[0], xi[1], xi[2]};
     if (t->npe == 4) {
         memcpy(dN, dL, sizeof dL);

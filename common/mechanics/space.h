@@ -27,8 +27,8 @@ struct pm_element_type {
  * linear meshes tet4). PM_USAGE: unknown, PM_INPUT: not on a linear mesh. */
 enum pm_status pm_element_type(const char *name, const struct pm_mesh *mesh,
                                const struct pm_element_type **type, struct pm_err *err);
-/* dN_a/dxi_j (npe x 3) at point q. */
-void pm_element_shape_gradient(const struct pm_element_type *t, int q, double *dN);
+/* dN_a/dxi_j (npe x 3) at the reference point xi. */
+void pm_element_shape_gradient(const struct pm_element_type *t, const double xi[3], double *dN);
 
 struct pm_space {
     const struct pm_element_type *type;

@@ -1,8 +1,9 @@
 /* An octant of a thick sphere, 1 <= r <= OUTER, as a gmsh 2.2 file, and the radial displacement of
  * its surfaces in a state file.
- *   thick_sphere write N M ORDER FILE.msh [OUTER]   N parts a side, M layers; ORDER quadratic
- *                                                   (curved) or linear; OUTER 2 where not given
- *   thick_sphere read STATE.h5                      the mean radial displacements inside, outside
+ *   thick_sphere write N M ORDER FILE.msh [OUTER [GROUP]]   N parts a side, M layers; ORDER
+ * quadratic (curved) or linear; OUTER 2 where not given; GROUP of the outer side: exterior, or
+ * chamber2 for its volume thick_sphere read STATE.h5                      the mean radial
+ * displacements inside, outside
  */
 #include <math.h>
 #include <stdio.h>
@@ -23,6 +24,7 @@ struct octant {
     int id[MAX_SIDE + 1][MAX_SIDE + 1]; /* direction (i, j, n - i - j) */
     int nd;
     double outer;
+    const char *group; /* of the outer side */
     double dir[MAX_SIDE * MAX_SIDE][3];
     double (*x)[3]; /* nodes */
     int (*ends)[2]; /* of the middle nodes */
@@ -154,7 +156,8 @@ static void write_22(const struct octant *o, FILE *f)
     const int nn = o->corners == 10 ? o->nn : o->nv;
     fprintf(f, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%d\n", GROUPS);
     for (int g = 1; g <= GROUPS; g++)
-        fprintf(f, "%d %d \"%s\"\n", g == BODY ? 3 : 2, g, group_name[g]);
+        fprintf(f, "%d %d \"%s\"\n", g == BODY ? 3 : 2, g,
+                g == EXTERIOR ? o->group : group_name[g]);
     fprintf(f, "$EndPhysicalNames\n$Nodes\n%d\n", nn);
     for (int a = 0; a < nn; a++)
         fprintf(f, "%d %.17g %.17g %.17g\n", a + 1, o->x[a][0], o->x[a][1], o->x[a][2]);
@@ -166,13 +169,15 @@ static void write_22(const struct octant *o, FILE *f)
     fprintf(f, "$EndElements\n");
 }
 
-static int write_octant(int n, int m, const char *order, const char *path, double outer)
+static int write_octant(int n, int m, const char *order, const char *path, double outer,
+                        const char *group)
 {
     static struct octant o;
     const size_t side = (size_t)n, layers = (size_t)m;
     o.n = n;
     o.m = m;
     o.outer = outer;
+    o.group = group;
     o.corners = strcmp(order, "linear") == 0 ? 4 : 10;
     o.x = calloc(MAX_NODES, sizeof *o.x);
     o.ends = calloc(MAX_NODES, sizeof *o.ends);
@@ -224,11 +229,12 @@ static int read_state(const char *path)
 
 int main(int argc, char **argv)
 {
-    if ((argc == 6 || argc == 7) && strcmp(argv[1], "write") == 0)
+    if (argc >= 6 && argc <= 8 && strcmp(argv[1], "write") == 0)
         return write_octant((int)strtol(argv[2], NULL, 10), (int)strtol(argv[3], NULL, 10), argv[4],
-                            argv[5], argc == 7 ? strtod(argv[6], NULL) : 2);
+                            argv[5], argc >= 7 ? strtod(argv[6], NULL) : 2,
+                            argc == 8 ? argv[7] : "exterior");
     if (argc == 3 && strcmp(argv[1], "read") == 0)
         return read_state(argv[2]);
-    fprintf(stderr, "usage: thick_sphere write N M ORDER FILE [OUTER] | read STATE\n");
+    fprintf(stderr, "usage: thick_sphere write N M ORDER FILE [OUTER [GROUP]] | read STATE\n");
     return 2;
 }

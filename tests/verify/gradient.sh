@@ -16,9 +16,9 @@ states() {
     "$BIN/wsint" --form "$2" "$work/$1-$2"-?.h5 -o "$work/$1-$2-work.h5"
 }
 
-# gradient ELEMENT FORM POINT: adjsens refuses (status 4) where the best of a sweep is off by more than 1e-5.
+# gradient ELEMENT FORM POINT [OPTIONS]: adjsens refuses (status 4) where the best of a sweep is off by more than 1e-6.
 gradient() {
-    "$BIN/adjsens" --check "$work/$1-$2-$3.h5" "$work/$1-$2-work.h5" -o "$work/sens.h5"
+    "$BIN/adjsens" --check "${@:4}" "$work/$1-$2-$3.h5" "$work/$1-$2-work.h5" -o "$work/sens.h5"
 }
 
 check "states, boundary form" states tet10-blend boundary 3
@@ -31,4 +31,15 @@ check "plain tet10" gradient tet10 boundary 3
 check "mean dilatation" gradient tet10-mean boundary 1
 check "states, law of Ogden" states tet10-blend boundary 3 --law ogden --parameters 0.4,1.3,0.01,5,-0.02,-2
 check "law of Ogden" gradient tet10-blend boundary 2
+
+# The largest error of a single control point is 2e-6 (differences of a small number).
+check "control points of each surface one by one" gradient tet10-blend volume 1 --points 4
+
+# entries FORM: U, J, V, C one by one make up the aggregated gradient.
+entries() {
+    "$BIN/adjsens" --each --form "$1" "$work/tet10-blend-volume-1.h5" "$work/tet10-blend-volume-work.h5" -o "$work/each.h5" &&
+        "$LIB/contract" "$work/tet10-blend-volume-work.h5" 1 "$work/each.h5" | awk '{ print } { exit !($1 < 1e-10) }'
+}
+check "entries one by one, domain form" entries domain
+check "entries one by one, boundary form" entries boundary
 finish

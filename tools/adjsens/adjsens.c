@@ -103,24 +103,50 @@ static void identities(const struct adjsens_point *pt, const double *D, const do
         size[2];
 }
 
-static enum pm_status differentiate(struct adjsens_point *pt, struct pm_sens *out,
-                                    struct pm_err *err)
+struct pm_adjoint_at adjsens_at(const struct adjsens_point *pt)
+{
+    return (struct pm_adjoint_at){
+        .m = pt->m, .c = &pt->c, .p = pt->p, .f = pt->f, .Jq = pt->Jq, .scale = pt->m->law.mu};
+}
+
+enum pm_status adjsens_pull_back(struct adjsens_point *pt, enum pm_shape_form form, double *D,
+                                 double *g, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_mesh *mesh = &pt->state.mesh;
+    if (form == PM_SHAPE_DOMAIN) {
+        if (pt->extension == NULL)
+            PM_TRY(pm_extension_new(mesh, &pt->extension, err));
+        PM_TRY(pm_extension_transpose(pt->extension, D, err));
+    }
+    pm_mesh_pull_back(mesh, D, g);
+done:
+    return status;
+}
+
+static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens_point *pt,
+                                    struct pm_sens *out, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_mesh *mesh = &pt->state.mesh;
+    const struct pm_adjoint_at at = adjsens_at(pt);
+    struct pm_objective w = {.V = {0}};
     ptrdiff_t nc = mesh->nc;
     double *D = NULL, D_ref[3];
     PM_TRY(PM_NEW(D, 3 * pt->m->nn, err));
     PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
-    PM_TRY(pm_adjoint(pt->m, &pt->c, pt->p, pt->f, pt->m->law.mu, pt->Jq,
-                      pt->work.dw_dU + 6 * pt->row, pt->work.dw_dJ + 6 * nc * pt->row, D, D_ref,
-                      err));
-    identities(pt, D, D_ref, out);
-    pm_log(1, "identities: translation %.1e, scaling %.1e, rotation %.1e",
-           out->identity_translation, out->identity_scaling, out->identity_rotation);
-    PM_TRY(pm_extension_new(mesh, &pt->extension, err));
-    PM_TRY(pm_extension_transpose(pt->extension, D, err));
-    pm_mesh_pull_back(mesh, D, out->gradient);
+    for (ptrdiff_t l = 0; l < 6; l++) {
+        w.U[l] = pt->work.dw_dU[6 * pt->row + l];
+        for (ptrdiff_t r = 0; r < nc; r++)
+            w.J[l][r] = pt->work.dw_dJ[6 * nc * pt->row + nc * l + r];
+    }
+    PM_TRY(pm_adjoint(&at, 1, &w, o->form, D, D_ref, err));
+    if (o->form == PM_SHAPE_DOMAIN) {
+        identities(pt, D, D_ref, out);
+        pm_log(1, "identities: translation %.1e, scaling %.1e, rotation %.1e",
+               out->identity_translation, out->identity_scaling, out->identity_rotation);
+    }
+    PM_TRY(adjsens_pull_back(pt, o->form, D, out->gradient, err));
 done:
     pm_free(D);
     return status;
@@ -139,30 +165,70 @@ static void release(struct adjsens_point *pt)
     pm_work_release(&pt->work);
 }
 
+static enum pm_status check_usage(const struct adjsens_opts *o, const struct pm_common *c,
+                                  struct pm_err *err)
+{
+    if (c->noperands < 2 && !o->each && !o->nodal)
+        return pm_fail(err, PM_USAGE,
+                       "got no WORK.h5, expected one: only --each and --nodal need none");
+    if (c->noperands < 2 && o->check)
+        return pm_fail(err, PM_USAGE, "--check needs WORK.h5");
+    if (o->check && o->form == PM_SHAPE_BOUNDARY)
+        return pm_fail(err, PM_USAGE,
+                       "--check is of the domain form: the boundary form is not the derivative of "
+                       "the discrete problem");
+    return PM_OK;
+}
+
+static enum pm_status load(const struct adjsens_opts *o, const struct pm_common *common,
+                           struct adjsens_point *pt, struct pm_err *err)
+{
+    enum pm_status status;
+    PM_TRY(pm_state_load(common->operands[0], 0, &pt->state, err));
+    if (pt->state.mesh.N == 0 && (common->noperands > 1 || o->each))
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "cannot use '%s': its mesh was imported and has no control points, "
+                       "expected one made from surfaces, or --nodal alone",
+                       common->operands[0]));
+    if (common->noperands > 1) {
+        PM_TRY(pm_work_load(common->operands[1], 0, &pt->work, err));
+        PM_TRY(find_row(common->operands[1], pt, err));
+    }
+done:
+    return status;
+}
+
+static void tell_cost(const struct adjsens_point *pt, clock_t start)
+{
+    const struct pm_cost *c = &pt->m->cost;
+    double all = (double)(clock() - start) / CLOCKS_PER_SEC;
+    pm_log(1,
+           "%td unknowns, CPU s: ordering %.2f, assembly %.2f, factorisation %.2f, solves %.2f, "
+           "all %.2f; without ordering and assembly %.2f factorisations",
+           pt->m->nq, c->order, c->assemble, c->factor, c->solve, all,
+           (all - c->order - c->assemble) / c->factor);
+}
+
 enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common *common,
                            struct pm_err *err)
 {
     enum pm_status status;
-    struct adjsens_point pt = {0};
-    struct pm_sens sens = {0};
+    struct adjsens_point pt = {.row = 0};
+    struct pm_sens sens = {.N = 0};
     struct pm_h5 *out = NULL;
-    PM_TRY(pm_state_load(common->operands[0], 0, &pt.state, err));
-    PM_TRY(pm_work_load(common->operands[1], 0, &pt.work, err));
-    if (pt.state.mesh.N == 0) {
-        status = pm_fail(err, PM_INPUT,
-                         "cannot use '%s': its mesh was imported and has no control points, "
-                         "expected one made from "
-                         "surfaces",
-                         common->operands[0]);
-        goto done;
-    }
-    PM_TRY(find_row(common->operands[1], &pt, err));
+    PM_TRY(check_usage(o, common, err));
+    PM_TRY(load(o, common, &pt, err));
+    clock_t start = clock();
     PM_TRY(restore(&pt, err));
-    PM_TRY(differentiate(&pt, &sens, err));
+    if (common->noperands > 1)
+        PM_TRY(differentiate(o, &pt, &sens, err));
+    PM_TRY(adjsens_entries(o, &pt, &sens, err));
+    tell_cost(&pt, start);
     if (o->check)
         PM_TRY(adjsens_check(o, &pt, sens.gradient, err));
     sens.form = pt.state.form;
     sens.load = pt.state.load;
+    sens.shape_form = o->form;
     sens.N = pt.state.mesh.N;
     PM_TRY(pm_case_copy(&pt.state.mesh.pcase, &sens.pcase, err));
     PM_TRY(pm_h5_create(common->output, "sens", common, NULL, &out, err));
