@@ -123,17 +123,21 @@ static enum pm_status sweep(struct probe *pr, const char *label, const double *g
 {
     enum { STEPS = 4 };
     enum pm_status status;
-    double best = INFINITY, at = 0.0, exact = 0.0;
+    double best = INFINITY, at = 0.0, exact = 0.0, before = 0.0;
     for (ptrdiff_t k = 0; k < 3 * pr->pt->state.mesh.N; k++)
         exact += g[k] * d[k];
     PM_TRY(node_rates(pr->pt, d, pr->dx, err));
     for (int k = 0; k < STEPS; k++, radius /= 4) {
-        double up, down;
+        double up, down, fd, e;
         PM_TRY(evaluate(pr, radius, &up, err));
         PM_TRY(evaluate(pr, -radius, &down, err));
-        double fd = (up - down) / (2 * radius), e = fabs(fd - exact) / fabs(exact);
-        printf("%-14s step %.2e  adjoint %+.10e  differences %+.10e  relative error %.2e\n", label,
-               radius, exact, fd, e);
+        fd = (up - down) / (2 * radius);
+        /* with the step before: without the error of second order (Richardson) */
+        e = fabs((k > 0 ? fd + (fd - before) / 15 : fd) - exact) / fabs(exact);
+        before = fd;
+        printf("%-14s step %.2e  adjoint %+.10e  differences %+.10e  relative error %.2e, "
+               "extrapolated %.2e\n",
+               label, radius, exact, fd, fabs(fd - exact) / fabs(exact), e);
         at = e < best ? radius : at;
         best = fmin(best, e);
     }
