@@ -5,7 +5,7 @@
 set -eu
 
 build=(build-essential pkg-config libhdf5-dev hdf5-tools libsuitesparse-dev libmetis-dev libopenblas-dev
-    libgsl-dev liblbfgs-dev libinih-dev zlib1g-dev libgmsh-dev gmsh libcjson-dev gnuplot-nox calculix-ccx perl)
+    libgsl-dev liblbfgs-dev libinih-dev zlib1g-dev libgmsh-dev gmsh libcjson-dev gnuplot-nox calculix-ccx admesh perl)
 lint=(clang-format clang-tidy cppcheck shellcheck mandoc)
 
 case ${1-} in

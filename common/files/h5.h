@@ -58,12 +58,16 @@ enum pm_status pm_h5_link(struct pm_h5 *f, const char *target, const char *name,
                           struct pm_err *err);
 /* Attributes Version and Type of the existing group /VTKHDF. */
 enum pm_status pm_h5_mark_vtk(struct pm_h5 *f, const char *type, struct pm_err *err);
-/* Writes the group /VTKHDF (UnstructuredGrid, tetrahedra in VTK order) for the nn nodes of the
- * dataset `points`, already written, and tet (ne x npe), npe 4 or 10. */
+/* Writes the group /VTKHDF (UnstructuredGrid, nodes in VTK order) for the nn nodes of the dataset
+ * `points`, already written, and the cells tet (ne x npe): npe 4 or 10, tetrahedra, or 3,
+ * triangles. */
 enum pm_status pm_h5_put_vtk(struct pm_h5 *f, const char *points, ptrdiff_t nn, ptrdiff_t ne,
                              ptrdiff_t npe, const int32_t *tet, struct pm_err *err);
-/* Adds a nodal vector field (nn x 3) of the schema to /VTKHDF/PointData by a link. */
+/* Adds a nodal field (nn x ..) of the schema to /VTKHDF/PointData by a link, or one of the cells
+ * (ne x ..) to /VTKHDF/CellData. */
 enum pm_status pm_h5_vtk_point_field(struct pm_h5 *f, const char *dataset, const char *label,
                                      struct pm_err *err);
+enum pm_status pm_h5_vtk_cell_field(struct pm_h5 *f, const char *dataset, const char *label,
+                                    struct pm_err *err);
 
 #endif

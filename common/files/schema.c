@@ -12,7 +12,7 @@
 
 /* clang-format off */
 static const struct pm_item table[] = {
-    {"surface mesh state path work sens step", "/case/text", TEXT, "", "1", "the design case, pneumorph-case(5)", 1},
+    {"surface mesh state path work sens step skin", "/case/text", TEXT, "", "1", "the design case, pneumorph-case(5)", 1},
     {"mesh state work step", "/failure", TEXT, "", "1", "why there is no result; then only the case and the load are certain", 0},
 
     {"surface step", "/surface%d/type", I64, "", "1", "0 B-spline tube, 1 sphere map", 1},
@@ -51,12 +51,19 @@ static const struct pm_item table[] = {
     {"mesh state path", "/mesh/delaunay", I64, "", "1", "1: HXT failed, made by the Delaunay mesher", 1},
     {"mesh state path", "/mesh/tag", I64, "nn", "1", "node numbers of the imported file", 0},
 
-    {"mesh state path", "/VTKHDF/NumberOfPoints", I64, "1", "1", "VTK: points", 1},
-    {"mesh state path", "/VTKHDF/NumberOfCells", I64, "1", "1", "VTK: cells", 1},
-    {"mesh state path", "/VTKHDF/NumberOfConnectivityIds", I64, "1", "1", "VTK: entries of Connectivity", 1},
-    {"mesh state path", "/VTKHDF/Connectivity", I64, "nv", "1", "VTK: nodes of the cells in VTK order", 1},
-    {"mesh state path", "/VTKHDF/Offsets", I64, "ne+1", "1", "VTK: first node of each cell", 1},
-    {"mesh state path", "/VTKHDF/Types", U8, "ne", "1", "VTK: 24, the quadratic tetrahedron, or 10, the linear one", 1},
+    {"mesh state path skin", "/VTKHDF/NumberOfPoints", I64, "1", "1", "VTK: points", 1},
+    {"mesh state path skin", "/VTKHDF/NumberOfCells", I64, "1", "1", "VTK: cells", 1},
+    {"mesh state path skin", "/VTKHDF/NumberOfConnectivityIds", I64, "1", "1", "VTK: entries of Connectivity", 1},
+    {"mesh state path skin", "/VTKHDF/Connectivity", I64, "nv", "1", "VTK: nodes of the cells in VTK order", 1},
+    {"mesh state path skin", "/VTKHDF/Offsets", I64, "ne+1", "1", "VTK: first node of each cell", 1},
+    {"mesh state path skin", "/VTKHDF/Types", U8, "ne", "1", "VTK: 24, the quadratic tetrahedron, 10, the linear one, or 5, the triangle", 1},
+
+    {"skin", "/skin/x", D, "nn 3", "mm", "node positions", 1},
+    {"skin", "/skin/tri", I32, "ne 3", "1", "nodes of the triangles, outward", 1},
+    {"skin", "/skin/tag", I32, "ne", "1", "0 exterior, 1.. chambers, -1 base, -2 tip, -10 mould, -11 core print", 1},
+    {"skin", "/skin/surface", I32, "nn", "1", "surface of the node: 0 exterior and its caps, 1.. chambers, -1 none", 1},
+    {"skin", "/skin/curvature", D, "nn", "1/mm", "root of the sum of squares of the principal curvatures", 0},
+    {"skin", "/skin/wall", D, "nn", "mm", "distance to the nearest other surface", 0},
 
     {"state sens", "/load/form", I64, "", "1", "Gauss set: 0 boundary form, 1 volume form", 1},
     {"state sens", "/load/index", I64, "", "1", "point of the Gauss set, -1 for free pressures", 1},

@@ -45,7 +45,8 @@ static enum pm_status set_sizes(struct pm_edit *m, const struct pm_remesh_opts *
             continue;
         PM_TRY(pm_map_point(m->map, m->phi, m->S + 3 * a, &m->basis, NULL, r_a, r_ab, err));
         const double k = curvature(r_a, r_ab, m->normal + 3 * a);
-        m->size[a] = fmax(o->size_min, fmin(o->size, o->crest / k));
+        const double bound = o->chord > 0 ? sqrt(8 * o->chord / k) : o->size;
+        m->size[a] = fmax(o->size_min, fmin(fmin(o->size, bound), o->crest / k));
     }
     for (int pass = 0, changed = 1; pass < 20 && changed; pass++) {
         changed = 0;

@@ -11,6 +11,7 @@ struct pm_remesh_opts {
     double size;     /* wanted edge length [mm] */
     double size_min; /* its lower bound where the surface is curved [mm] */
     double crest;    /* edge length <= crest / curvature [1] */
+    double chord;    /* edge length <= sqrt(8 chord / curvature), 0: no such bound [mm] */
     double growth;   /* largest change of the wanted length per unit length [1] */
     int sweeps;
     int mirror[3]; /* sphere: 1: mesh only S_j >= 0; nodes on the plane S_j = 0 stay on it */

@@ -18,7 +18,7 @@ END
 done
 chmod +x "$stub"/*
 all='build-essential pkg-config libhdf5-dev hdf5-tools libsuitesparse-dev libmetis-dev libopenblas-dev libgsl-dev
-liblbfgs-dev libinih-dev zlib1g-dev libgmsh-dev gmsh libcjson-dev gnuplot-nox calculix-ccx perl'
+liblbfgs-dev libinih-dev zlib1g-dev libgmsh-dev gmsh libcjson-dev gnuplot-nox calculix-ccx admesh perl'
 installed() {
     printf 'installed %s\n' "$@" >"$work/installed"
     : >"$work/log"

@@ -58,5 +58,6 @@ each tetmesh mesh /mesh/x "$work/surface.h5" --previous @
 each fesolve state /node/displacement "$work/mesh.h5" --load 0 --guess @
 each meshexport state /node/displacement @
 each meshexport mesh /mesh/x --pressure 0.1,0 @
+each surfexport surface /surface1/phi @
 each wsint work /measure/orientation "$work/state.h5" --sign-from @
 finish

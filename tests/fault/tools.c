@@ -13,6 +13,7 @@
 #include "tools/adjsens/adjsens.h"
 #include "tools/fesolve/fesolve.h"
 #include "tools/meshexport/meshexport.h"
+#include "tools/surfexport/surfexport.h"
 #include "tools/surfgen/surfgen.h"
 #include "tools/surfremesh/surfremesh.h"
 #include "tools/trstep/trstep.h"
@@ -62,6 +63,26 @@ static enum pm_status meshexport(const struct pm_common *c, struct pm_err *err)
 {
     const struct meshexport_opts opts = {.npressure = 2, .pressure = {0.1, 0.05}, .steps = 1};
     return meshexport_run(&opts, c, err);
+}
+
+static enum pm_status export_part(const char *what, const struct pm_common *c, struct pm_err *err)
+{
+    const struct surfexport_opts opts = {
+        .what = what,
+        .size = 8,
+        .tolerance = 1,
+        .mould = {.pull = 1, .wall = 8, .print = 4, .clearance = 0.2}};
+    return surfexport_run(&opts, c, err);
+}
+
+static enum pm_status surfexport_mould(const struct pm_common *c, struct pm_err *err)
+{
+    return export_part("mould2", c, err);
+}
+
+static enum pm_status surfexport_core(const struct pm_common *c, struct pm_err *err)
+{
+    return export_part("core1", c, err);
 }
 
 static void test_tool(const struct attempt *a)
@@ -125,6 +146,8 @@ int main(void)
         {"wsint", wsint, {"state-0.h5", "state-1.h5", "state-2.h5", "state-3.h5"}},
         {"adjsens", adjsens, {"state-0.h5", "work.h5"}},
         {"meshexport", meshexport, {"mesh.h5"}},
+        {"surfexport", surfexport_mould, {"surf.h5"}},
+        {"surfexport", surfexport_core, {"surf.h5"}},
         {"trstep",
          trstep,
          {"surf.h5", "work.h5", "sens-0.h5", "sens-1.h5", "sens-2.h5", "sens-3.h5"}},
