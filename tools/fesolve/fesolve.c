@@ -13,7 +13,7 @@
 #include "common/mechanics/equilibrium.h"
 #include "common/mechanics/limit.h"
 #include "common/mechanics/restore.h"
-#include "tools/fesolve/guess.h"
+#include "common/mechanics/start.h"
 #include "tools/fesolve/path.h"
 
 /* Pressures of the run: a point of a Gauss set, or those given. */
@@ -68,46 +68,6 @@ static void reaction(const struct pm_model *m, const struct pm_config *c, const 
     }
 }
 
-enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m, const double *p,
-                               struct pm_config *c, double *volume, double *f,
-                               struct pm_solve_report *r, struct pm_err *err)
-{
-    enum pm_status status;
-    struct pm_solve_options options = pm_solve_default;
-    struct pm_solve_report spent = {0};
-    struct guess g = {.usable = 0};
-    int good = 0;
-
-    options.tolerance = o->tolerance;
-    PM_TRY(guess_choose(o->guess, m->mesh, p, &g, err));
-    if (g.usable)
-        PM_TRY(guess_carry(&g, m, c, &good, &spent, err));
-    status = PM_NUMERIC;
-    if (good) {
-        struct pm_err why = {0};
-        status = pm_equilibrium(m, p, &options, &(struct pm_guess){.at = g.at, .mixed = g.mixed}, c,
-                                volume, f, r, &why);
-        if (status != PM_OK) {
-            spent.factorisations += r->factorisations;
-            spent.backoffs += r->backoffs + 1;
-        }
-        if (status != PM_OK && status != PM_NUMERIC)
-            *err = why;
-    }
-    if (status == PM_NUMERIC) {
-        if (g.usable)
-            pm_warn(
-                "the guess does not lead to an equilibrium: starting from the undeformed state");
-        status = pm_equilibrium(m, p, &options, NULL, c, volume, f, r, err);
-    }
-    r->factorisations += spent.factorisations;
-    r->newton_steps += spent.newton_steps;
-    r->backoffs += spent.backoffs;
-done:
-    guess_release(&g);
-    return status;
-}
-
 /* The limit of the pressures p; the state becomes the last stable one on the way. */
 static enum pm_status seek_limit(const struct fesolve_opts *o, struct pm_model *m, const double *p,
                                  struct pm_config *c, double *f, struct pm_solve_report *r,
@@ -150,8 +110,10 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     ptrdiff_t nc = s->mesh.nc;
     struct pm_model *m = NULL;
     struct pm_config c = {0};
+    struct pm_solve_options options = pm_solve_default;
     struct pm_solve_report r;
     double *p = NULL, *f = NULL, *Jq = NULL, low;
+    options.tolerance = o->tolerance;
     PM_TRY(pm_model_new(&s->mesh, o->element, &m, err));
     PM_TRY(pm_config_new(m, &c, err));
     PM_TRY(PM_NEW(p, nc, err));
@@ -166,7 +128,7 @@ static enum pm_status solve(const struct fesolve_opts *o, struct pm_state *s, st
     if (o->limit)
         PM_TRY(seek_limit(o, m, p, &c, f, &r, s, err));
     else
-        PM_TRY(fesolve_balance(o, m, p, &c, s->volume, f, &r, err));
+        PM_TRY(pm_start(m, p, &options, o->guess, &c, s->volume, f, &r, err));
     const long before = m->factorisations;
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, s->J, err));
     r.factorisations += m->factorisations - before;

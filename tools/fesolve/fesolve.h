@@ -4,7 +4,6 @@
 
 #include "common/base/tool.h"
 #include "common/files/case.h"
-#include "common/mechanics/equilibrium.h"
 
 enum { FESOLVE_MOST_GUESSES = 32 };
 
@@ -24,11 +23,6 @@ struct fesolve_opts {
     int record_failure;
 };
 
-/* Equilibrium at p (nc) [MPa] into c (undeformed on entry) from the guesses, else from the
- * undeformed state; the rest as pm_equilibrium. */
-enum pm_status fesolve_balance(const struct fesolve_opts *o, struct pm_model *m, const double *p,
-                               struct pm_config *c, double *volume, double *f,
-                               struct pm_solve_report *r, struct pm_err *err);
 enum pm_status fesolve_run(const struct fesolve_opts *opts, const struct pm_common *common,
                            struct pm_err *err);
 

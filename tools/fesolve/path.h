@@ -12,9 +12,4 @@
 enum pm_status fesolve_path(const struct fesolve_opts *o, const struct pm_common *common,
                             struct pm_mesh *mesh, struct pm_err *err);
 
-/* The points of a file: one a line, the pressures (nc) as ratios p/mu between blanks or commas; #
- * begins a comment. *p (np x nc) is new memory. PM_INPUT names the line. */
-enum pm_status fesolve_path_read(const char *path, ptrdiff_t nc, double **p, ptrdiff_t *np,
-                                 struct pm_err *err);
-
 #endif

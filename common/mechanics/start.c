@@ -1,13 +1,31 @@
-#include "tools/fesolve/guess.h"
+#include "common/mechanics/start.h"
 
 #include <math.h>
 #include <string.h>
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/files/state.h"
+#include "common/mechanics/relax.h"
 #include "common/mechanics/transfer.h"
 #include "common/mechanics/warp.h"
-#include "tools/fesolve/relax.h"
+
+/* An equilibrium of another load, a neighbouring shape or another mesh. */
+struct guess {
+    struct pm_state from;
+    double *at;      /* its pressures (nc) [MPa] */
+    pm_lanes *mixed; /* of the elements where it was carried to [MPa] */
+    int usable;
+    int same_mesh; /* but for the positions of its nodes */
+};
+
+static void guess_release(struct guess *g)
+{
+    pm_state_release(&g->from);
+    pm_free(g->at);
+    pm_free(g->mixed);
+    *g = (struct guess){.usable = 0};
+}
 
 static int same_connectivity(const struct pm_mesh *a, const struct pm_mesh *b)
 {
@@ -39,8 +57,10 @@ done:
     return status;
 }
 
-enum pm_status guess_choose(const char *const *paths, const struct pm_mesh *mesh, const double *p,
-                            struct guess *g, struct pm_err *err)
+/* The one of the files (ends with NULL) whose pressures are nearest to p; usable = 0, with
+ * warnings, where all record a failure or have other chambers. */
+static enum pm_status choose(const char *const *paths, const struct pm_mesh *mesh, const double *p,
+                             struct guess *g, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct guess next = {.usable = 0};
@@ -65,14 +85,6 @@ done:
     return status;
 }
 
-void guess_release(struct guess *g)
-{
-    pm_state_release(&g->from);
-    pm_free(g->at);
-    pm_free(g->mixed);
-    *g = (struct guess){.usable = 0};
-}
-
 /* The guess of another mesh at the loads of the guess. */
 static enum pm_status transfer(const struct guess *g, const struct pm_model *m, struct pm_config *c,
                                int *good, struct pm_solve_report *r, struct pm_err *err)
@@ -83,7 +95,7 @@ static enum pm_status transfer(const struct guess *g, const struct pm_model *m, 
     PM_TRY(pm_transfer(&g->from.mesh, g->from.u, m->mesh, c->u, err));
     memcpy(c->U, g->from.U, sizeof c->U);
     pm_model_place_tip(m, c);
-    status = fesolve_relax(m, g->at, c, &why);
+    status = pm_relax(m, g->at, c, &why);
     r->factorisations += status == PM_OK;
     *good = status == PM_OK;
     r->backoffs += !*good;
@@ -121,9 +133,50 @@ done:
     return status;
 }
 
-enum pm_status guess_carry(struct guess *g, struct pm_model *m, struct pm_config *c, int *good,
-                           struct pm_solve_report *r, struct pm_err *err)
+/* c = the guess carried to the mesh of m. The same connectivity: pm_warp_carry, with g->mixed;
+ * another one: transfer.h and relax.h, no g->mixed. *good = 0 where that fails. The counts of r
+ * grow by theirs. */
+static enum pm_status bring(struct guess *g, struct pm_model *m, struct pm_config *c, int *good,
+                            struct pm_solve_report *r, struct pm_err *err)
 {
     *good = 1;
     return g->same_mesh ? carry(g, m, c, err) : transfer(g, m, c, good, r, err);
+}
+
+enum pm_status pm_start(struct pm_model *m, const double *p, const struct pm_solve_options *o,
+                        const char *const *paths, struct pm_config *c, double *volume, double *f,
+                        struct pm_solve_report *r, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_solve_report spent = {0};
+    struct guess g = {.usable = 0};
+    int good = 0;
+
+    PM_TRY(choose(paths, m->mesh, p, &g, err));
+    if (g.usable)
+        PM_TRY(bring(&g, m, c, &good, &spent, err));
+    status = PM_NUMERIC;
+    if (good) {
+        struct pm_err why = {0};
+        status = pm_equilibrium(m, p, o, &(struct pm_guess){.at = g.at, .mixed = g.mixed}, c,
+                                volume, f, r, &why);
+        if (status != PM_OK) {
+            spent.factorisations += r->factorisations;
+            spent.backoffs += r->backoffs + 1;
+        }
+        if (status != PM_OK && status != PM_NUMERIC)
+            *err = why;
+    }
+    if (status == PM_NUMERIC) {
+        if (g.usable)
+            pm_warn(
+                "the guess does not lead to an equilibrium: starting from the undeformed state");
+        status = pm_equilibrium(m, p, o, NULL, c, volume, f, r, err);
+    }
+    r->factorisations += spent.factorisations;
+    r->newton_steps += spent.newton_steps;
+    r->backoffs += spent.backoffs;
+done:
+    guess_release(&g);
+    return status;
 }

@@ -1,6 +1,6 @@
 /* A displacement freed of the strain that interpolation leaves in it. */
-#ifndef PM_FESOLVE_RELAX_H
-#define PM_FESOLVE_RELAX_H
+#ifndef PM_RELAX_H
+#define PM_RELAX_H
 
 #include "common/mechanics/model.h"
 
@@ -9,7 +9,7 @@
  * that a displacement carried between meshes implies, and stiff where these err most, in the change
  * of volume. One analysis and one factorisation. PM_INPUT where the deformed body has inverted
  * elements. */
-enum pm_status fesolve_relax(const struct pm_model *m, const double *p, struct pm_config *c,
-                             struct pm_err *err);
+enum pm_status pm_relax(const struct pm_model *m, const double *p, struct pm_config *c,
+                        struct pm_err *err);
 
 #endif

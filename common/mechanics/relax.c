@@ -1,4 +1,4 @@
-#include "tools/fesolve/relax.h"
+#include "common/mechanics/relax.h"
 
 #include "common/base/memory.h"
 
@@ -20,8 +20,8 @@ done:
     return status;
 }
 
-enum pm_status fesolve_relax(const struct pm_model *m, const double *p, struct pm_config *c,
-                             struct pm_err *err)
+enum pm_status pm_relax(const struct pm_model *m, const double *p, struct pm_config *c,
+                        struct pm_err *err)
 {
     enum pm_status status;
     struct pm_mesh now = {.nn = 0};
