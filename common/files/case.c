@@ -68,6 +68,9 @@ static const struct key chamber_keys[] = {
     {"chamber", "amplitude", NUMBER, NOT_NEGATIVE, CHAMBER(c.amplitude), 0},
     {"chamber", "pitch", NUMBER, POSITIVE, CHAMBER(c.pitch), 0},
     {"chamber", "spacing", NUMBER, POSITIVE, CHAMBER(c.spacing), 0},
+    {"chamber", "section", NUMBERS, POSITIVE, CHAMBER(c.section), 2},
+    {"chamber", "turn", NUMBER, ANY, CHAMBER(c.turn), 0},
+    {"chamber", "twist", NUMBER, ANY, CHAMBER(c.twist), 0},
 };
 
 enum {
@@ -150,8 +153,9 @@ static int take_numbers(struct parser *p, const struct key *k, const char *value
         char *end;
         v[i] = strtod(at, &end);
         end += strspn(end, " \t");
-        if (end == at || !isfinite(v[i]) || *end != (i + 1 < k->size ? ',' : '\0'))
-            return refuse(p, k, value, "three numbers 'x, y, z'");
+        if (end == at || !in_range(v[i], k->range) || *end != (i + 1 < k->size ? ',' : '\0'))
+            return refuse(p, k, value,
+                          k->size == 3 ? "three numbers 'x, y, z'" : "two numbers > 0 'a, b'");
         at = end + 1;
     }
     memcpy(target, v, k->size * sizeof v[0]);
@@ -287,7 +291,10 @@ static void set_defaults(struct pm_case_raw *raw)
                                                 .length = NAN,
                                                 .amplitude = NAN,
                                                 .pitch = NAN,
-                                                .spacing = NAN};
+                                                .spacing = NAN,
+                                                .section = {NAN, NAN},
+                                                .turn = NAN,
+                                                .twist = NAN};
 }
 
 enum pm_status pm_case_parse(const char *text, const char *name, struct pm_case *c,

@@ -14,16 +14,24 @@ enum pm_shape { PM_SHAPE_SPHERE, PM_SHAPE_ELLIPSOID, PM_SHAPE_CAPSULE, PM_SHAPE_
 enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE };
 enum pm_form { PM_FORM_BOUNDARY = 0, PM_FORM_VOLUME = 1 };
 
-/* [chamberN]: a shape of revolution about a line parallel to z through `center`. */
+/* [chamberN]: a shape of revolution about a line parallel to z through `center`, its cross-sections
+ * made ellipses, turned and twisted: x = center + R(turn + twist z/length) (section[0] r cos t,
+ * section[1] r sin t, z), R from the direction out of the z axis (+x where center lies on it). */
 struct pm_chamber {
     enum pm_shape shape;
-    double center[3]; /* [mm] */
-    double radius;    /* mean radius [mm] */
-    double length;    /* along z, ends included [mm] */
-    double amplitude; /* of the bellows wave, crest to mean [mm] */
-    double pitch;     /* of the bellows wave [mm] */
-    double spacing;   /* wanted spacing of control points [mm] */
+    double center[3];  /* [mm] */
+    double radius;     /* mean radius [mm] */
+    double length;     /* along z, ends included [mm] */
+    double amplitude;  /* of the bellows wave, crest to mean [mm] */
+    double pitch;      /* of the bellows wave [mm] */
+    double spacing;    /* wanted spacing of control points [mm] */
+    double section[2]; /* half-axes over radius [1] */
+    double turn;       /* of the first half-axis at the middle, in (-pi/2, pi/2] [rad] */
+    double twist;      /* over the length, right-handed about z [rad] */
 };
+
+/* Angle of the first half-axis at height z over the centre, from +x [rad]. */
+double pm_chamber_angle(const struct pm_chamber *c, double z);
 
 /* Orthogonal operations x -> Q x + t that map the robot onto itself, identity first, with the
  * chamber permutation: chamber r goes to chamber chamber[r]. Chambers are 0-based. */

@@ -6,6 +6,7 @@
 
 /* Slack of comparisons between numbers of the case file [mm]. */
 static const double slack = 1e-9;
+static const double PI = 3.14159265358979323846;
 
 static enum pm_status missing(const char *name, const char *section, const char *key,
                               struct pm_err *err)
@@ -145,7 +146,24 @@ static enum pm_status complete_body(struct pm_case_raw *raw, const char *name, s
 /* Radius of the bounding cylinder. */
 static double outer_radius(const struct pm_chamber *k)
 {
-    return k->radius + k->amplitude;
+    return (k->radius + k->amplitude) * fmax(k->section[0], k->section[1]);
+}
+
+/* Angles in degrees become radians; an ellipse turned by pi is itself. */
+static enum pm_status complete_section(struct pm_chamber *c, int r, const char *name,
+                                       struct pm_err *err)
+{
+    if (isnan(c->section[0])) {
+        if (!isnan(c->turn) || !isnan(c->twist))
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': chamber %d has '%s' without 'section', expected both",
+                           name, r + 1, isnan(c->turn) ? "twist" : "turn");
+        c->section[0] = c->section[1] = 1;
+    }
+    c->turn = isnan(c->turn) ? 0 : c->turn * PI / 180;
+    c->turn -= PI * ceil(c->turn / PI - 0.5);
+    c->twist = isnan(c->twist) ? 0 : c->twist * PI / 180;
+    return PM_OK;
 }
 
 static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const char *name,
@@ -198,10 +216,10 @@ static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const 
     /* At least 14 control points around and 6 along a wave resolve the surface to a few hundredths
        of a millimetre. */
     if (isnan(c->spacing))
-        c->spacing = fmin(2.5, 2 * 3.14159265358979323846 * c->radius / 14);
+        c->spacing = fmin(2.5, 2 * PI * c->radius / 14);
     if (wave && isnan(raw->c.spacing))
         c->spacing = fmin(c->spacing, c->pitch / 6);
-    return PM_OK;
+    return complete_section(c, r, name, err);
 }
 
 static enum pm_status complete_chambers(struct pm_case_raw *raw, const char *name,

@@ -12,6 +12,7 @@ struct generator {
 };
 
 #define SIN60 0.86602540378443864676
+#define PI    3.14159265358979323846
 
 static const struct generator generators[] = {
     {"mirror-x", {-1, 0, 0, 0, 1, 0, 0, 0, 1}, 0},
@@ -107,10 +108,39 @@ static int chamber_at(const struct pm_case *c, const double x[3])
     return -1;
 }
 
+/* Of the direction from which the turn of a chamber at `center` counts. */
+static double radial(const double center[3])
+{
+    return hypot(center[0], center[1]) > 1e-9 ? atan2(center[1], center[0]) : 0;
+}
+
+double pm_chamber_angle(const struct pm_chamber *c, double z)
+{
+    return radial(c->center) + c->turn + c->twist * z / c->length;
+}
+
+/* The chamber under operation g: a mirror and a flip of z each reverse what they must. */
+static void chamber_image(const struct pm_symmetry *s, ptrdiff_t g, const struct pm_chamber *c,
+                          struct pm_chamber *y)
+{
+    const double *Q = s->Q[g], a = pm_chamber_angle(c, 0);
+    const double axis[2] = {Q[0] * cos(a) + Q[1] * sin(a), Q[3] * cos(a) + Q[4] * sin(a)};
+    *y = *c;
+    image(s, g, c->center, y->center);
+    y->twist *= (Q[0] * Q[4] - Q[1] * Q[3]) * Q[8];
+    y->turn = remainder(atan2(axis[1], axis[0]) - radial(y->center), PI);
+    if (y->turn <= -PI / 2 + 1e-12)
+        y->turn += PI;
+}
+
 static int same_shape(const struct pm_chamber *a, const struct pm_chamber *b)
 {
+    const int round = a->section[0] == a->section[1];
     return a->shape == b->shape && a->radius == b->radius && a->length == b->length &&
-           a->amplitude == b->amplitude && a->pitch == b->pitch && a->spacing == b->spacing;
+           a->amplitude == b->amplitude && a->pitch == b->pitch && a->spacing == b->spacing &&
+           a->section[0] == b->section[0] && a->section[1] == b->section[1] &&
+           (round ||
+            (fabs(remainder(a->turn - b->turn, PI)) < 1e-9 && fabs(a->twist - b->twist) < 1e-9));
 }
 
 enum pm_status pm_case_images(struct pm_case *c, const char *name, struct pm_err *err)
@@ -120,12 +150,13 @@ enum pm_status pm_case_images(struct pm_case *c, const char *name, struct pm_err
     double x[3];
     for (ptrdiff_t r = 0; r < listed; r++) {
         for (ptrdiff_t g = 0; g < s->nops; g++) {
-            image(s, g, c->chamber[r].center, x);
-            int k = chamber_at(c, x);
-            if (k >= 0 && !same_shape(&c->chamber[k], &c->chamber[r]))
+            struct pm_chamber y;
+            chamber_image(s, g, &c->chamber[r], &y);
+            int k = chamber_at(c, y.center);
+            if (k >= 0 && !same_shape(&c->chamber[k], &y))
                 return pm_fail(err, PM_INPUT,
                                "cannot use '%s': chamber %d is an image of chamber %td under "
-                               "the symmetry, expected the same shape",
+                               "the symmetry, expected the same shape, turn and twist",
                                name, k + 1, r + 1);
             if (k >= 0)
                 continue;
@@ -133,8 +164,7 @@ enum pm_status pm_case_images(struct pm_case *c, const char *name, struct pm_err
                 return pm_fail(err, PM_INPUT,
                                "cannot use '%s': more than %d chambers with their images", name,
                                (int)PM_MAX_CHAMBERS);
-            c->chamber[c->nchambers] = c->chamber[r];
-            memcpy(c->chamber[c->nchambers++].center, x, sizeof x);
+            c->chamber[c->nchambers++] = y;
         }
     }
     for (ptrdiff_t g = 0; g < s->nops; g++) {

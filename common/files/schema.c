@@ -24,6 +24,8 @@ static const struct pm_item table[] = {
     {"surface step", "/surface%d/nv", I64, "", "1", "B-spline: control points along (sphere map: 0)", 1},
     {"surface step", "/surface%d/tri", I32, "nt%d 3", "1", "triangles of control points, outward", 1},
     {"surface step", "/symmetry/perm", I32, "nops N", "1", "control point i goes to perm under each operation", 1},
+    {"surface", "/fit/mean", D, "ns", "mm", "mean distance of the wanted surface from the fitted one", 0},
+    {"surface", "/fit/max", D, "ns", "mm", "largest such distance", 0},
     {"surface", "/reconstruction/kept", I64, "", "1", "1: surfremesh left the surfaces unchanged", 0},
     {"surface", "/reconstruction/reason", TEXT, "", "1", "why a result was refused, or empty", 0},
     {"surface", "/reconstruction/spacing_before", D, "ns", "1", "variation of the spacing (exterior: longest over mean)", 0},

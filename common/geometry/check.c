@@ -119,6 +119,53 @@ done:
     return status;
 }
 
+/* Parameter at the middle of the circle through the corners of a triangle of control points: where
+ * the cover of a sphere map is least. */
+static void circumcentre(const struct pm_surface *f, ptrdiff_t t, double S[3])
+{
+    const double *a = &f->Phi[3 * (ptrdiff_t)f->tri[3 * t]];
+    const double *b = &f->Phi[3 * (ptrdiff_t)f->tri[3 * t + 1]];
+    const double *c = &f->Phi[3 * (ptrdiff_t)f->tri[3 * t + 2]];
+    double u[3], v[3], len;
+
+    for (int j = 0; j < 3; j++) {
+        u[j] = b[j] - a[j];
+        v[j] = c[j] - a[j];
+    }
+    for (int j = 0; j < 3; j++)
+        S[j] = u[(j + 1) % 3] * v[(j + 2) % 3] - u[(j + 2) % 3] * v[(j + 1) % 3];
+    len = sqrt(S[0] * S[0] + S[1] * S[1] + S[2] * S[2]);
+    for (int j = 0; j < 3; j++)
+        S[j] = len > 0 ? S[j] / len : a[j];
+}
+
+static enum pm_status cover(const struct field *f, ptrdiff_t k, struct pm_check *c,
+                            struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_surface *s = &f->s->s[k];
+    struct pm_map *map = NULL;
+    struct pm_basis work = {0};
+    double S[3], Z;
+
+    PM_TRY(pm_map_new(s, &map, err));
+    for (ptrdiff_t t = 0; t < s->nt; t++) {
+        const double *p = &s->phi[3 * (ptrdiff_t)s->tri[3 * t]];
+        circumcentre(s, t, S);
+        PM_TRY(pm_map_coverage(map, S, &work, &Z, err));
+        c->coverage = fmin(c->coverage, Z);
+        if (Z < 1)
+            fault(
+                c,
+                "surface %td has a hole in its cover near (%.4g, %.4g, %.4g): sum of kernels %.3g",
+                k, p[0], p[1], p[2], Z);
+    }
+done:
+    pm_map_free(map);
+    pm_basis_release(&work);
+    return status;
+}
+
 enum pm_status pm_surfaces_measure(const struct pm_surfaces *s, struct pm_check *check,
                                    struct pm_err *err)
 {
@@ -134,6 +181,8 @@ enum pm_status pm_surfaces_measure(const struct pm_surfaces *s, struct pm_check 
     pm_samples_all(&f.m, f.phi, f.x, f.normal);
     for (ptrdiff_t k = 0; k < s->ns; k++)
         PM_TRY(maps(&f, k, check, err));
+    for (ptrdiff_t k = 1; k < s->ns; k++)
+        PM_TRY(cover(&f, k, check, err));
     for (ptrdiff_t k = 1; k < s->ns; k++)
         containment(&f, k, check);
     PM_TRY(walls(&f, check, err));

@@ -10,7 +10,8 @@ struct pm_check {
     struct pm_approach wall; /* closest approach of two distinct surfaces [mm] */
     double cap;              /* least distance of a chamber from the planes z = 0 and z = H [mm] */
     double cap_x[3];         /* where [mm] */
-    double coverage;         /* least sum of kernels over the samples of the chambers */
+    double coverage;         /* least sum of kernels on the chambers: at the samples and at the
+                                circumcentres of the triangles of control points */
     double curvature;        /* largest sqrt(c1^2 + c2^2) over the samples [1/mm] */
     double curvature_x[3];   /* where [mm] */
 };

@@ -214,6 +214,13 @@ ptrdiff_t pm_symmetry_source(const struct pm_symmetry *y, ptrdiff_t k, ptrdiff_t
     return k;
 }
 
+void pm_symmetry_points(const struct pm_symmetry *y, ptrdiff_t g, ptrdiff_t n, const double *x,
+                        double *out)
+{
+    for (ptrdiff_t i = 0; i < n; i++)
+        transform(y, g, 0, 1, &x[3 * i], &out[3 * i]);
+}
+
 enum pm_status pm_symmetry_image(const struct pm_symmetry *y, ptrdiff_t g,
                                  const struct pm_surface *from, struct pm_surface *to,
                                  struct pm_err *err)
@@ -229,10 +236,9 @@ enum pm_status pm_symmetry_image(const struct pm_symmetry *y, ptrdiff_t g,
     PM_TRY(PM_NEW(to->Phi, 3 * to->n, err));
     PM_TRY(PM_NEW(to->d0, to->n, err));
     PM_TRY(PM_NEW(to->tri, 3 * to->nt, err));
-    for (ptrdiff_t i = 0; i < from->n; i++) {
+    for (ptrdiff_t i = 0; i < from->n; i++)
         transform(y, g, 0, 0, &from->Phi[3 * i], &to->Phi[3 * i]);
-        transform(y, g, 0, 1, &from->phi[3 * i], &to->phi[3 * i]);
-    }
+    pm_symmetry_points(y, g, from->n, from->phi, to->phi);
     memcpy(to->free, from->free, 3 * (size_t)from->n);
     memcpy(to->d0, from->d0, (size_t)from->n * sizeof *to->d0);
     memcpy(to->tri, from->tri, 3 * (size_t)from->nt * sizeof *to->tri);

@@ -24,6 +24,9 @@ enum pm_status pm_symmetrise_reference(struct pm_surfaces *s, struct pm_err *err
 /* Chamber k (0-based) as the image of an earlier one: chamber r < k goes to k under operation *g;
  * returns r, or k itself (*g = 0) where it comes first in its orbit. */
 ptrdiff_t pm_symmetry_source(const struct pm_symmetry *y, ptrdiff_t k, ptrdiff_t *g);
+/* y = Q x + t of operation g for n points (n x 3). */
+void pm_symmetry_points(const struct pm_symmetry *y, ptrdiff_t g, ptrdiff_t n, const double *x,
+                        double *out);
 /* The image of a closed surface under operation g, point by point. */
 enum pm_status pm_symmetry_image(const struct pm_symmetry *y, ptrdiff_t g,
                                  const struct pm_surface *from, struct pm_surface *to,

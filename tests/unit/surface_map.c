@@ -147,7 +147,8 @@ int main(void)
     struct pm_err err = {0};
     struct pm_surfaces robot = {0};
     const struct robot_chamber ball = {{0, 0, 20}, {6, 5, 12}, 0.1};
-    const struct pm_chamber thin = {PM_SHAPE_CAPSULE, {0}, 2, 80, 0, 0, 1};
+    const struct pm_chamber thin = {
+        .shape = PM_SHAPE_CAPSULE, .radius = 2, .length = 80, .spacing = 1, .section = {1, 1}};
     struct pm_profile profile = {0};
     struct pm_surface crowd = {0};
     double S[3] = {0.36, 0.48, 0.8}, tube[3] = {0.6, -0.8, 0.37};

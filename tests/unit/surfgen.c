@@ -55,11 +55,11 @@ static void compare(const char *text, const char *name, ptrdiff_t nops, double d
     struct pm_err err = {0};
     struct pm_case c = {0};
     struct pm_surfaces s = {0};
-    struct pm_check check;
+    struct pm_surfgen_report fit;
     double *phi = NULL, *v = NULL, *w = NULL;
     ptrdiff_t n;
 
-    if (pm_case_parse(text, name, &c, &err) != PM_OK || pm_surfgen(&c, &s, &err) != PM_OK ||
+    if (pm_case_parse(text, name, &c, &err) != PM_OK || pm_surfgen(&c, &s, &fit, &err) != PM_OK ||
         PM_NEW(phi, 3 * s.offset[s.ns], &err) != PM_OK ||
         PM_NEW(v, 3 * s.offset[s.ns], &err) != PM_OK ||
         PM_NEW(w, 3 * s.offset[s.ns], &err) != PM_OK) {
@@ -93,9 +93,9 @@ static void compare(const char *text, const char *name, ptrdiff_t nops, double d
     near_array("projection of vectors is idempotent", w, v, n, defect == 0 ? 0 : 1e-15);
     pm_surfaces_gather(&s, phi);
     ok(!on_mirror_plane_moves(&s, phi, v), "%s: points on the plane y = 0 stay on it", name);
-    ok(pm_surfaces_check(&s, &check, &err) == PM_OK, "%s: surfaces are sound", name);
-    ok(check.wall.distance < 3.2 && check.coverage > 2, "%s: wall %.3f mm for 3 wanted, cover %.2f",
-       name, check.wall.distance, check.coverage);
+    ok(fit.check.wall.distance < 3.2 && fit.check.coverage > 2,
+       "%s: wall %.3f mm for 3 wanted, cover %.2f", name, fit.check.wall.distance,
+       fit.check.coverage);
     pm_surfaces_release(&s);
     pm_case_release(&c);
     pm_free(phi);
@@ -111,10 +111,12 @@ static void refuse(const char *from, const char *to, const char *why)
     struct pm_err err = {0};
     struct pm_case c = {0};
     struct pm_surfaces s = {0};
+    struct pm_surfgen_report fit;
 
     snprintf(text, sizeof text, "%.*s%s%s", (int)(at - MIRRORS), MIRRORS, to, at + strlen(from));
-    ok(pm_case_parse(text, "bad", &c, &err) == PM_OK && pm_surfgen(&c, &s, &err) == PM_INPUT &&
-           strstr(err.text, why) != NULL && s.s == NULL,
+    ok(pm_case_parse(text, "bad", &c, &err) == PM_OK &&
+           pm_surfgen(&c, &s, &fit, &err) == PM_INPUT && strstr(err.text, why) != NULL &&
+           s.s == NULL,
        "'%s' is refused: %s", to, err.text);
     pm_case_release(&c);
     pm_surfaces_release(&s);
@@ -126,9 +128,11 @@ static void displace(double by, const char *why)
     struct pm_err err = {0};
     struct pm_case c = {0};
     struct pm_surfaces s = {0};
+    struct pm_surfgen_report fit;
     struct pm_check check;
 
-    if (pm_case_parse(MIRRORS, "moved", &c, &err) != PM_OK || pm_surfgen(&c, &s, &err) != PM_OK) {
+    if (pm_case_parse(MIRRORS, "moved", &c, &err) != PM_OK ||
+        pm_surfgen(&c, &s, &fit, &err) != PM_OK) {
         ok(0, "%s", err.text);
         return;
     }
@@ -140,11 +144,116 @@ static void displace(double by, const char *why)
     pm_surfaces_release(&s);
 }
 
+/* Helices: C3 alone keeps them, and their images turn alike. */
+static const char *const HELICES =
+    "[case]\nname = helices\n[material]\nlaw = neo-hookean\nmu = 1\n"
+    "[body]\nshape = envelope\nheight = 60\nwall = 3\nweb = 8\naround = 36\nrows = 20\n"
+    "[chamber1]\nshape = capsule\ncenter = 12, 0, 30\nradius = 6.5\nlength = 50\nspacing = 2.5\n"
+    "section = 1.2, 0.8\nturn = 65\ntwist = 90\n"
+    "[symmetry]\ngroup = c3\n[workspace]\nmeasure = 3R\n"
+    "[constraints]\nwall_min = 2.4\ncurvature_max = 1\ncap_min = 3\n";
+
+/* Two helices under half a turn about y = 0, z = H/2: each goes to itself. */
+static const char *const SELF =
+    "[case]\nname = self\n[material]\nlaw = neo-hookean\nmu = 1\n"
+    "[body]\nshape = envelope\nheight = 60\nwall = 3\nweb = 8\naround = 36\nrows = 20\n"
+    "[chamber1]\nshape = ellipsoid\ncenter = 12, 0, 30\nradius = 6.5\nlength = 50\nspacing = 2.5\n"
+    "section = 1.2, 0.8\ntwist = 60\n"
+    "[chamber2]\nshape = ellipsoid\ncenter = -12, 0, 30\nradius = 6.5\nlength = 50\nspacing = 2.5\n"
+    "section = 0.8, 1.2\nturn = 90\ntwist = -60\n"
+    "[symmetry]\ngroup = c2-x\n[workspace]\nmeasure = 2T\n"
+    "[constraints]\nwall_min = 2.4\ncurvature_max = 1\ncap_min = 3\n";
+
+/* The ends of the long half-axis lie where turn and twist put them. */
+static void helix(void)
+{
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0};
+    struct pm_surfgen_report fit;
+    struct pm_map *map = NULL;
+    struct pm_basis work = {0};
+
+    if (pm_case_parse(HELICES, "helices", &c, &err) != PM_OK ||
+        pm_surfgen(&c, &s, &fit, &err) != PM_OK || pm_map_new(&s.s[2], &map, &err) != PM_OK) {
+        ok(0, "%s", err.text);
+        return;
+    }
+    for (int k = -1; k <= 1; k++) {
+        /* Chamber 2: 120 degrees around, turned by 65, twisted by 90 over 50 mm. */
+        const double z = 15 * k, a = (120 + 65 + 90 * z / 50) * acos(-1.0) / 180;
+        const double end[3] = {-6 + 7.8 * cos(a), 6 * sqrt(3) + 7.8 * sin(a), 30 + z};
+        double S[3] = {cos(a), sin(a), 0.1 * k}, r[3], distance;
+        ok(pm_distance_project(map, PM_SURFACE_SPHERE, s.s[2].phi, end, &work, S, r, &distance,
+                               &err) == PM_OK,
+           "%s", err.text);
+        near_abs("end of the half-axis off the surface [mm]", distance, 0, fit.max[2] + 1e-9);
+    }
+    pm_basis_release(&work);
+    pm_map_free(map);
+    pm_surfaces_release(&s);
+    pm_case_release(&c);
+}
+
+/* A mirror reverses a twist and turns an ellipse: what it lists twice must agree. */
+static void refuse_image(const char *change, const char *why)
+{
+    char text[2048];
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+
+    snprintf(text, sizeof text, "%s[chamber1]\n%s", MIRRORS, change);
+    ok(pm_case_parse(text, "bad", &c, &err) == PM_INPUT && strstr(err.text, why) != NULL,
+       "'%s' is refused: %s", change, err.text);
+    pm_case_release(&c);
+}
+
+/* Tips of slender ellipsoids: their radius of curvature is far below the spacing. */
+static enum pm_status slender(double radius, struct pm_surfgen_report *fit, struct pm_err *err)
+{
+    char text[512];
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0};
+    enum pm_status status;
+
+    snprintf(text, sizeof text,
+             "[case]\nname = thin\n[material]\nmu = 1\n[body]\nshape = cylinder\nheight = 100\n"
+             "radius = 12\n[chamber1]\nshape = ellipsoid\ncenter = 0, 0, 50\nradius = %g\n"
+             "length = 80\nspacing = 2.5\n[constraints]\ncurvature_max = 4\n",
+             radius);
+    status = pm_case_parse(text, "thin", &c, err);
+    status = status == PM_OK ? pm_surfgen(&c, &s, fit, err) : status;
+    pm_surfaces_release(&s);
+    pm_case_release(&c);
+    return status;
+}
+
+static void tips(void)
+{
+    struct pm_surfgen_report fit;
+    struct pm_err err = {0};
+
+    ok(slender(4, &fit, &err) == PM_OK, "slender ellipsoid %s", err.text);
+    /* A tenth of the radius of curvature of the tip, 4^2 / 40. */
+    ok(fit.max[1] > 0 && fit.max[1] < 0.04, "largest error %.4f mm, mean %.4f mm", fit.max[1],
+       fit.mean[1]);
+    ok(slender(1.2, &fit, &err) == PM_INPUT && strstr(err.text, "misses its shape") != NULL,
+       "a needle is refused: %s", err.text);
+}
+
 int main(void)
 {
     compare(MIRRORS, "mirrors", 4, 0);
     compare(TURNS, "turns", 6, 1e-13);
+    compare(HELICES, "helices", 3, 1e-13);
+    compare(SELF, "chambers that are their own images", 2, 1e-13);
+    helix();
+    tips();
     refuse("wall = 3", "wall = 2.5", "wall between");
+    refuse_image("section = 1.2, 0.8\ntwist = 30\n", "same shape, turn and twist");
+    refuse_image("section = 1.2, 0.8\nturn = 30\n", "same shape, turn and twist");
+    refuse_image("twist = 30\n", "'twist' without 'section'");
+    refuse_image("section = 1.2\n", "expected two numbers");
     displace(-6, "chambers 1 and 2 meet");
     displace(8, "leaves the body");
     displace(60, "leaves the body");

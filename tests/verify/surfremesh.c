@@ -142,12 +142,13 @@ static void exterior(void)
     struct pm_err err = {0};
     struct pm_case c = {0};
     struct pm_surfaces s = {0}, to = {0};
+    struct pm_surfgen_report fit;
     const struct surfremesh_opts o = {.alpha = 0.1, .iterations = 20};
     struct surfremesh_report report = {0};
     double *phi = NULL;
 
-    if (pm_case_parse(ROUND, "round", &c, &err) != PM_OK || pm_surfgen(&c, &s, &err) != PM_OK ||
-        PM_NEW(phi, 3 * s.offset[s.ns], &err) != PM_OK ||
+    if (pm_case_parse(ROUND, "round", &c, &err) != PM_OK ||
+        pm_surfgen(&c, &s, &fit, &err) != PM_OK || PM_NEW(phi, 3 * s.offset[s.ns], &err) != PM_OK ||
         surfremesh_report_init(&report, s.ns, &err) != PM_OK) {
         ok(0, "%s", err.text);
         return;
@@ -186,8 +187,10 @@ int main(void)
     struct pm_err err = {0};
     struct pm_case c = {0};
     struct pm_surfaces first = {0};
+    struct pm_surfgen_report fit;
 
-    if (pm_case_parse(CASE, "bellows", &c, &err) != PM_OK || pm_surfgen(&c, &first, &err) != PM_OK)
+    if (pm_case_parse(CASE, "bellows", &c, &err) != PM_OK ||
+        pm_surfgen(&c, &first, &fit, &err) != PM_OK)
         return tap_bail("%s", err.text);
     drift(&first);
     stretched(&first);

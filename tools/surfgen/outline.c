@@ -8,7 +8,7 @@
 
 static const double TWO_PI = 6.283185307179586476925;
 
-enum { LEVELS = 801, POINTS = 720, MAX_STEPS = 20000, FINE = 100 };
+enum { LEVELS = 401, POINTS = 720, MAX_STEPS = 20000, FINE = 100 };
 
 static const double STEP = 0.1;   /* of the tracing [mm] */
 static const double FILLET = 6.0; /* reach of the blend between two parts [mm] */
@@ -31,6 +31,43 @@ static struct level disc(const double p[2], const double centre[2], double radiu
     return (struct level){len - radius, {d[0] / len, d[1] / len}};
 }
 
+/* Distance from the ellipse of half-axes a, b about the origin: the foot is
+ * (a^2 x / (t + a^2), b^2 y / (t + b^2)) at the largest root t; Newton's method from the left of it
+ * is monotone. */
+static struct level ellipse(const double p[2], double a, double b)
+{
+    double u = a * fabs(p[0]), v = b * fabs(p[1]), t = fmax(u - a * a, v - b * b), n[2], len;
+
+    for (int it = 0; it < 50; it++) {
+        double g = u / (t + a * a), h = v / (t + b * b), f = g * g + h * h - 1;
+        double step = f / (2 * (g * g / (t + a * a) + h * h / (t + b * b)));
+        t += step;
+        if (!(fabs(step) > 1e-13 * a * b))
+            break;
+    }
+    n[0] = p[0] / (t + a * a);
+    n[1] = p[1] / (t + b * b);
+    len = fmax(hypot(n[0], n[1]), 1e-12);
+    return (struct level){t * len, {n[0] / len, n[1] / len}};
+}
+
+/* The section of a chamber with a wall around: the disc where it is round, of the same radius. */
+static struct level section(const struct pm_case *c, const struct pm_chamber *k, double radius,
+                            double z, const double p[2])
+{
+    double core = fmax(radius - c->wall, 0.1), angle = pm_chamber_angle(k, z - k->center[2]);
+    double e[2] = {cos(angle), sin(angle)};
+    double d[2] = {p[0] - k->center[0], p[1] - k->center[1]};
+    double q[2] = {e[0] * d[0] + e[1] * d[1], e[0] * d[1] - e[1] * d[0]};
+    struct level f;
+
+    if (k->section[0] == 1 && k->section[1] == 1)
+        return disc(p, k->center, radius);
+    f = ellipse(q, core * k->section[0], core * k->section[1]);
+    return (struct level){f.f - (radius - core),
+                          {e[0] * f.d[0] - e[1] * f.d[1], e[1] * f.d[0] + e[0] * f.d[1]}};
+}
+
 static struct level web(const double p[2], const double end[2], double half)
 {
     double len2 = end[0] * end[0] + end[1] * end[1];
@@ -51,14 +88,14 @@ static struct level join(struct level a, struct level b)
 }
 
 /* Chambers on one axis share the larger disc. */
-static struct level body(const struct pm_case *c, const double *radius, const double p[2])
+static struct level body(const struct pm_case *c, const double *radius, double z, const double p[2])
 {
     struct level all = {INFINITY, {0}};
 
     if (c->body == PM_BODY_CYLINDER)
         return disc(p, (const double[2]){0, 0}, c->body_radius);
     for (ptrdiff_t k = 0; k < c->nchambers; k++) {
-        struct level own = disc(p, c->chamber[k].center, radius[k]);
+        struct level own = section(c, &c->chamber[k], radius[k], z, p);
         int seen = 0;
         for (ptrdiff_t l = 0; l < c->nchambers; l++) {
             const double *a = c->chamber[k].center, *b = c->chamber[l].center;
@@ -112,9 +149,10 @@ done:
 }
 
 /* One Newton step to the curve along the gradient. */
-static double correct(const struct pm_case *c, const double *radius, double p[2], double tangent[2])
+static double correct(const struct pm_case *c, const double *radius, double z, double p[2],
+                      double tangent[2])
 {
-    struct level b = body(c, radius, p);
+    struct level b = body(c, radius, z, p);
     double g = b.d[0] * b.d[0] + b.d[1] * b.d[1];
 
     p[0] -= b.f * b.d[0] / g;
@@ -136,7 +174,7 @@ static int beside(const struct pm_case *c, ptrdiff_t k, ptrdiff_t l, double z)
 
 /* Follows the curve once around from the +x axis into path; returns its points, 0 where it does not
  * close. */
-static ptrdiff_t trace(const struct pm_case *c, const double *radius, double *path)
+static ptrdiff_t trace(const struct pm_case *c, const double *radius, double z, double *path)
 {
     double p[2] = {4 * c->height, 0}, t[2], turned = 0;
     ptrdiff_t n = 0;
@@ -145,17 +183,17 @@ static ptrdiff_t trace(const struct pm_case *c, const double *radius, double *pa
         p[0] -= 5 * STEP;
         if (p[0] < 0)
             return 0;
-    } while (body(c, radius, p).f > 0);
-    while (correct(c, radius, p, t) > 1e-10 && n < 50)
+    } while (body(c, radius, z, p).f > 0);
+    while (correct(c, radius, z, p, t) > 1e-10 && n < 50)
         n++;
     n = 0;
     while (n < MAX_STEPS) {
         double before = atan2(p[1], p[0]), step;
         memcpy(&path[2 * n++], p, sizeof p);
-        correct(c, radius, p, t);
+        correct(c, radius, z, p, t);
         p[0] += STEP * t[0];
         p[1] += STEP * t[1];
-        for (int it = 0; it < 8 && correct(c, radius, p, t) > 1e-10; it++)
+        for (int it = 0; it < 8 && correct(c, radius, z, p, t) > 1e-10; it++)
             ;
         step = atan2(p[1], p[0]) - before;
         step -= TWO_PI * round(step / TWO_PI);
@@ -213,7 +251,7 @@ enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, 
             for (ptrdiff_t l = 0; l < c->nchambers; l++)
                 radius[k] = beside(c, k, l, z) ? 0 : radius[k];
         }
-        n = trace(c, radius, path);
+        n = trace(c, radius, z, path);
         if (n < 8) {
             status = pm_fail(
                 err, PM_INPUT,

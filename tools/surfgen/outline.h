@@ -9,7 +9,8 @@ struct pm_outline; /* cross-sections at many heights, by arc length */
 
 /* Envelope: the disc of a chamber has the radius of its profile without end caps offset by `wall`
  * along the normal, the web is everything within `web` of the segment from the chamber to the axis;
- * joined with fillets. Cylinder: one circle. PM_INPUT where a cross-section is not one closed curve
+ * joined with fillets. An elliptic section takes the place of the disc, at the same distance.
+ * Cylinder: one circle. PM_INPUT where a cross-section is not one closed curve
  * about the axis. */
 enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **o, struct pm_err *err);
 void pm_outline_free(struct pm_outline *o);

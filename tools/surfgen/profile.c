@@ -65,6 +65,30 @@ static void lower_half(const struct pm_chamber *c, double u, double *r, double *
     }
 }
 
+/* A quarter of the ellipse of half-axes a, b by arc length; returns its circumference over 2 pi. */
+static double quarter_ellipse(double a, double b, double *q)
+{
+    enum { FINE = 8 * PM_SECTION_PARTS };
+    double arc[FINE + 1] = {0};
+    ptrdiff_t at = 0;
+
+    for (ptrdiff_t i = 1; i <= FINE; i++) {
+        double t = PI / 2 * (double)(i - 1) / FINE, u = PI / 2 * (double)i / FINE;
+        arc[i] = arc[i - 1] + hypot(a * (cos(u) - cos(t)), b * (sin(u) - sin(t)));
+    }
+    for (ptrdiff_t k = 1; k < PM_SECTION_PARTS; k++) {
+        double s = arc[FINE] * (double)k / PM_SECTION_PARTS, t;
+        while (arc[at + 1] < s)
+            at++;
+        t = PI / 2 * ((double)at + (s - arc[at]) / (arc[at + 1] - arc[at])) / FINE;
+        q[2 * k] = a * cos(t);
+        q[2 * k + 1] = b * sin(t);
+    }
+    q[0] = a;
+    q[2 * PM_SECTION_PARTS + 1] = b;
+    return 2 * arc[FINE] / PI;
+}
+
 static void integrate(struct pm_profile *p)
 {
     ptrdiff_t mid = p->n / 2;
@@ -72,9 +96,9 @@ static void integrate(struct pm_profile *p)
     for (ptrdiff_t i = 1; i < p->n; i++)
         p->s[i] = p->s[i - 1] + hypot(p->r[i] - p->r[i - 1], p->z[i] - p->z[i - 1]);
     for (ptrdiff_t i = mid + 1; i < p->n; i++) { /* r is linear in s on a segment */
-        double a = p->r[i - 1], b = p->r[i], ds = p->s[i] - p->s[i - 1];
-        double mean = fabs(b - a) < 1e-6 * a ? (a + b) / 2 : (b - a) / log(b / a);
-        p->psi[i] = b > 0 ? p->psi[i - 1] + ds / mean : HUGE_VAL;
+        double a = p->mean * p->r[i - 1], b = p->mean * p->r[i], ds = p->s[i] - p->s[i - 1];
+        double middle = fabs(b - a) < 1e-6 * a ? (a + b) / 2 : (b - a) / log(b / a);
+        p->psi[i] = b > 0 ? p->psi[i - 1] + ds / middle : HUGE_VAL;
     }
     for (ptrdiff_t i = 0; i < mid; i++)
         p->psi[i] = -p->psi[p->n - 1 - i];
@@ -111,6 +135,11 @@ enum pm_status pm_profile_new(const struct pm_chamber *c, struct pm_profile *p, 
         p->z[j] = -p->z[i];
     }
     p->z[half] = 0;
+    p->round = c->section[0] == 1 && c->section[1] == 1;
+    p->angle = p->round ? 0 : pm_chamber_angle(c, 0);
+    p->twist = p->round ? 0 : c->twist / c->length;
+    p->mean = quarter_ellipse(c->section[0], c->section[1], p->quarter);
+    p->mean = p->round ? 1 : p->mean;
     integrate(p);
 done:
     if (status != PM_OK)
@@ -149,6 +178,28 @@ void pm_profile_at_arc(const struct pm_profile *p, double s, double *r, double *
     *psi = w <= 0 ? p->psi[i] : w >= 1 ? p->psi[i + 1] : (1 - w) * p->psi[i] + w * p->psi[i + 1];
 }
 
+void pm_profile_around(const struct pm_profile *p, double r, double z, double u, double x[3])
+{
+    double f = 4 * (u - floor(u)), a = p->angle + p->twist * z, q[2];
+    ptrdiff_t side = (ptrdiff_t)fmin(f, 3);
+    double v = PM_SECTION_PARTS * (side % 2 == 0 ? f - (double)side : (double)side + 1 - f);
+    ptrdiff_t k = (ptrdiff_t)fmin(v, PM_SECTION_PARTS - 1);
+
+    x[2] = z;
+    if (p->round) {
+        x[0] = r * cos(2 * PI * u);
+        x[1] = r * sin(2 * PI * u);
+        return;
+    }
+    for (int j = 0; j < 2; j++)
+        q[j] = r * (p->quarter[2 * k + j] +
+                    (v - (double)k) * (p->quarter[2 * k + 2 + j] - p->quarter[2 * k + j]));
+    q[0] = side == 1 || side == 2 ? -q[0] : q[0];
+    q[1] = side >= 2 ? -q[1] : q[1];
+    x[0] = cos(a) * q[0] - sin(a) * q[1];
+    x[1] = sin(a) * q[0] + cos(a) * q[1];
+}
+
 void pm_profile_point(const struct pm_profile *p, const double S[3], double x[3])
 {
     double rho = hypot(S[0], S[1]), psi = rho > 0    ? asinh(S[2] / rho)
@@ -165,6 +216,10 @@ void pm_profile_point(const struct pm_profile *p, const double S[3], double x[3]
     }
     x[2] = (1 - w) * p->z[i] + w * p->z[i + 1];
     w = (1 - w) * p->r[i] + w * p->r[i + 1];
+    if (!p->round) {
+        pm_profile_around(p, w, x[2], (atan2(S[1], S[0]) - p->angle) / (2 * PI), x);
+        return;
+    }
     x[0] = rho > 0 ? w * S[0] / rho : 0;
     x[1] = rho > 0 ? w * S[1] / rho : 0;
 }

@@ -5,16 +5,20 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
-#include "common/geometry/check.h"
+#include "common/geometry/distance.h"
 #include "common/geometry/fit.h"
 #include "common/geometry/samples.h"
 #include "common/geometry/symmetry.h"
 #include "tools/surfgen/body.h"
 #include "tools/surfgen/chamber.h"
 
+/* Shares of the spacing: a shape that its control points miss by more is doubtful, or not it. */
+static const double WARNED = 0.1, REFUSED = 0.5;
+
 /* What the surfaces are made from. */
 struct plan {
     const struct pm_case *c;
+    struct pm_surfgen_report *fit;
     struct pm_outline *outline;
     struct pm_profile profile[PM_MAX_CHAMBERS];
 };
@@ -79,6 +83,42 @@ static void target(const struct plan *p, ptrdiff_t k, const double S[3], double 
         x[j] += p->c->chamber[k - 1].center[j];
 }
 
+/* Distance of the wanted surface k from the fitted one: area-weighted mean and largest, at points
+ * that the fit has not seen, and the mean spacing of its control points. */
+static enum pm_status measure(const struct plan *p, ptrdiff_t k, struct pm_surface *f, double at[3],
+                              double *spacing, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    ptrdiff_t offset[2] = {0, f->n};
+    const struct pm_surfaces alone = {.ns = 1, .s = f, .offset = offset};
+    struct pm_samples m = {0};
+    struct pm_map *map = NULL;
+    struct pm_basis work = {0};
+    double area = 0, sum = 0, *most = &p->fit->max[k];
+
+    PM_TRY(pm_map_new(f, &map, err));
+    PM_TRY(pm_samples_new(&alone, INFINITY, 3, &m, err));
+    for (ptrdiff_t q = 0; q < m.n; q++) {
+        double x[3], r[3], S[3], distance;
+        memcpy(S, &m.S[3 * q], sizeof S);
+        target(p, k, S, x);
+        PM_TRY(pm_distance_project(map, f->type, f->phi, x, &work, S, r, &distance, err));
+        area += m.area[q];
+        sum += m.area[q] * distance;
+        if (distance <= *most)
+            continue;
+        *most = distance;
+        memcpy(at, x, sizeof x);
+    }
+    p->fit->mean[k] = sum / area;
+    *spacing = sqrt(2 / sqrt(3) * area / (double)f->n); /* of as many equilateral triangles */
+done:
+    pm_basis_release(&work);
+    pm_map_free(map);
+    pm_samples_release(&m);
+    return status;
+}
+
 /* Fits surface k to its shape. The heights of the exterior's rows are exact already: z is linear in
  * v. */
 static enum pm_status fit(const struct plan *p, struct pm_surfaces *s, const struct pm_samples *m,
@@ -89,73 +129,112 @@ static enum pm_status fit(const struct plan *p, struct pm_surfaces *s, const str
     ptrdiff_t first = m->first[k], nq = m->first[k + 1] - first;
     struct pm_map *map = NULL;
     uint8_t *fixed = NULL;
-    double *x = NULL, error[2];
+    double *x = NULL, *weight = NULL, rms[2];
 
     PM_TRY(pm_map_new(f, &map, err));
     PM_TRY(PM_NEW(x, 3 * nq, err));
+    PM_TRY(PM_NEW(weight, nq, err));
     PM_TRY(PM_NEW(fixed, 3 * f->n, err));
     for (ptrdiff_t q = 0; q < nq; q++)
         target(p, k, &m->S[3 * (first + q)], &x[3 * q]);
+    for (ptrdiff_t q = 0; q < nq;
+         q++) /* not the area: regularisation would win where it is small */
+        weight[q] = 1;
     for (ptrdiff_t i = 0; i < f->n; i++)
         fixed[3 * i + 2] = k == 0;
     const struct pm_fit job = {
         .nq = nq,
         .S = &m->S[3 * first],
-        .weight = &m->area[first],
+        .weight = weight,
         .target = x,
         .alpha = k == 0 ? 1e-3 : 0.1,
         .iterations = 5, /* more would fit closer, and ripple: curvature 0.9 instead of 0.7 /mm */
         .fixed = fixed};
-    PM_TRY(pm_fit_points(map, f->n, &job, f->phi, error, err));
-    pm_log(1, "surface %td: %td control points, fit error rms %.4f max %.4f mm", k, f->n, error[0],
-           error[1]);
+    PM_TRY(pm_fit_points(map, f->n, &job, f->phi, rms, err));
 done:
     pm_map_free(map);
     pm_free(x);
+    pm_free(weight);
     pm_free(fixed);
     return status;
 }
 
-static enum pm_status finish(struct pm_surfaces *s, struct pm_err *err)
+/* Fits surface k, or copies the fit of which it is an image; states and judges the error. */
+static enum pm_status shape(const struct plan *p, struct pm_surfaces *s, const struct pm_samples *m,
+                            ptrdiff_t k, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_check check;
+    const struct pm_symmetry *y = &p->c->symmetry;
+    struct pm_surface *f = &s->s[k];
+    ptrdiff_t g, r = k > 0 ? pm_symmetry_source(y, k - 1, &g) + 1 : 0;
+    double at[3] = {0}, *max = p->fit->max, *mean = p->fit->mean, spacing;
+
+    if (r < k) {
+        pm_symmetry_points(y, g, f->n, s->s[r].phi, f->phi);
+        mean[k] = mean[r];
+        max[k] = max[r];
+        return PM_OK;
+    }
+    PM_TRY(fit(p, s, m, k, err));
+    PM_TRY(measure(p, k, f, at, &spacing, err));
+    pm_log(1,
+           "surface %td: %td control points, distance from the wanted surface mean %.4f max "
+           "%.4f mm",
+           k, f->n, mean[k], max[k]);
+    if (max[k] > REFUSED * spacing)
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "surface %td misses its shape by %.3g mm at (%.4g, %.4g, %.4g), expected at "
+                       "most half the spacing %.3g of its control points",
+                       k, max[k], at[0], at[1], at[2], spacing));
+    if (max[k] > WARNED * spacing)
+        pm_warn("surface %td misses its shape by %.3g mm at (%.4g, %.4g, %.4g), more than a tenth "
+                "of the spacing %.3g",
+                k, max[k], at[0], at[1], at[2], spacing);
+done:
+    return status;
+}
+
+static enum pm_status finish(struct pm_surfaces *s, struct pm_check *check, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
     double *phi = NULL;
 
     PM_TRY(PM_NEW(phi, 3 * s->offset[s->ns], err));
     pm_surfaces_gather(s, phi);
     pm_symmetrise_points(s, phi);
     pm_surfaces_scatter(s, phi);
-    PM_TRY(pm_surfaces_check(s, &check, err));
+    PM_TRY(pm_surfaces_check(s, check, err));
     pm_log(1, "least wall %.3f between surfaces %d and %d at (%.4g, %.4g, %.4g), least cap %.3f mm",
-           check.wall.distance, check.wall.a, check.wall.b, check.wall.x[0], check.wall.x[1],
-           check.wall.x[2], check.cap);
+           check->wall.distance, check->wall.a, check->wall.b, check->wall.x[0], check->wall.x[1],
+           check->wall.x[2], check->cap);
     pm_log(1,
            "largest curvature %.3f /mm at (%.4g, %.4g, %.4g), least cover %.2f, symmetry defect "
            "%.1e mm",
-           check.curvature, check.curvature_x[0], check.curvature_x[1], check.curvature_x[2],
-           check.coverage, pm_symmetry_defect(s, phi));
-    if (check.curvature > s->pcase.curvature_max)
+           check->curvature, check->curvature_x[0], check->curvature_x[1], check->curvature_x[2],
+           check->coverage, pm_symmetry_defect(s, phi));
+    if (check->curvature > s->pcase.curvature_max)
         pm_warn("largest curvature %.3g /mm at (%.4g, %.4g, %.4g) is above curvature_max %g",
-                check.curvature, check.curvature_x[0], check.curvature_x[1], check.curvature_x[2],
-                s->pcase.curvature_max);
+                check->curvature, check->curvature_x[0], check->curvature_x[1],
+                check->curvature_x[2], s->pcase.curvature_max);
 done:
     pm_free(phi);
     return status;
 }
 
-enum pm_status pm_surfgen(const struct pm_case *c, struct pm_surfaces *s, struct pm_err *err)
+enum pm_status pm_surfgen(const struct pm_case *c, struct pm_surfaces *s,
+                          struct pm_surfgen_report *report, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct plan p = {.c = c};
+    struct plan p = {.c = c, .fit = report};
     struct pm_samples m = {0};
 
     memset(s, 0, sizeof *s);
+    memset(report, 0, sizeof *report);
     PM_TRY(seed(&p, s, err));
     PM_TRY(pm_samples_new(s, INFINITY, 2, &m, err));
     for (ptrdiff_t k = 0; k < s->ns; k++)
-        PM_TRY(fit(&p, s, &m, k, err));
-    PM_TRY(finish(s, err));
+        PM_TRY(shape(&p, s, &m, k, err));
+    PM_TRY(finish(s, &report->check, err));
 done:
     pm_outline_free(p.outline);
     for (ptrdiff_t k = 0; k < PM_MAX_CHAMBERS; k++)
@@ -171,12 +250,15 @@ enum pm_status surfgen_run(const struct pm_common *common, struct pm_err *err)
     enum pm_status status = PM_OK;
     struct pm_case c = {0};
     struct pm_surfaces s = {0};
+    struct pm_surfgen_report fit;
     struct pm_h5 *f = NULL;
 
     PM_TRY(pm_case_load(common->operands[0], &c, err));
-    PM_TRY(pm_surfgen(&c, &s, err));
+    PM_TRY(pm_surfgen(&c, &s, &fit, err));
     PM_TRY(pm_h5_create(common->output, "surface", common, NULL, &f, err));
     PM_TRY(pm_surfaces_write(f, &s, err));
+    PM_TRY(pm_h5_put(f, "/fit/mean", &s.ns, fit.mean, err));
+    PM_TRY(pm_h5_put(f, "/fit/max", &s.ns, fit.max, err));
     status = pm_h5_commit(f, err);
     f = NULL;
 done:

@@ -3,10 +3,20 @@
 
 #include "common/base/tool.h"
 #include "common/files/surfaces.h"
+#include "common/geometry/check.h"
 
 /* Reads the case, writes its initial surfaces. */
 enum pm_status surfgen_run(const struct pm_common *common, struct pm_err *err);
-/* The initial surfaces of a case, fitted, exactly symmetric and checked. */
-enum pm_status pm_surfgen(const struct pm_case *c, struct pm_surfaces *s, struct pm_err *err);
+/* How well it went. */
+struct pm_surfgen_report {
+    /* distance of each wanted surface from the fitted one, at points that the fit has not seen:
+     * mean over the area, largest (1 + chambers) [mm] */
+    double mean[PM_MAX_CHAMBERS + 1], max[PM_MAX_CHAMBERS + 1];
+    struct pm_check check;
+};
+/* The initial surfaces of a case, fitted, exactly symmetric and checked. Warns of a fit error above
+ * a tenth of the spacing of control points, refuses (PM_INPUT) one above half of it. */
+enum pm_status pm_surfgen(const struct pm_case *c, struct pm_surfaces *s,
+                          struct pm_surfgen_report *report, struct pm_err *err);
 
 #endif
