@@ -88,6 +88,7 @@ static void check_volumes(const struct pm_mesh *m, const struct pm_surfaces *s, 
     /* the divergence theorem is exact for these polynomials: rounding only */
     expect(fabs(through - volume) <= 1e-10 * volume, "volume by the boundary [mm3]", through,
            volume);
+    printf("body: %.3f mm3 in the mesh\n", volume);
     expect(pm_samples_new(s, 1, 1, &samples, &err) == PM_OK, err.text, 0, 0);
     for (int k = 1; k < s->ns; k++) {
         const double mesh = -flux(m, k, k), exact = pm_samples_volume(&samples, phi, k);

@@ -1,6 +1,5 @@
 #include "tools/surfexport/ears.h"
 
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -113,7 +112,7 @@ static enum pm_status bridge(struct ring *r, const struct ears_loop *hole, ptrdi
     const ptrdiff_t after = r->next[from];
     ptrdiff_t last = from;
     for (ptrdiff_t j = 0; j <= hole->n; j++) {
-        const ptrdiff_t i = append(r, hole->node[(m + j) % hole->n]);
+        const ptrdiff_t i = append(r, hole->node[m + j < hole->n ? m + j : m + j - hole->n]);
         link_corners(r, last, i);
         last = i;
     }
@@ -125,8 +124,12 @@ static enum pm_status bridge(struct ring *r, const struct ears_loop *hole, ptrdi
 
 /* ---- ears ---- */
 
+/* Nodes on a straight line are off it by rounding, some 1e-15 of their distances; features of a
+ * section are far larger than this part of them. */
+static const double flat = 1e-10;
+
 /* Shape of the ear at corner i: 4 sqrt 3 area / sum of squared edges, 1 for an equilateral one; -1
- * where it is none: not convex, or a corner inside or on its rim. */
+ * where it is none: flat, not convex, or a corner inside or on its rim. */
 static double ear(const struct ring *r, ptrdiff_t i)
 {
     const ptrdiff_t j = r->previous[i], k = r->next[i];
@@ -135,14 +138,14 @@ static double ear(const struct ring *r, ptrdiff_t i)
     const double square = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
                           (b[0] - c[0]) * (b[0] - c[0]) + (b[1] - c[1]) * (b[1] - c[1]) +
                           (c[0] - a[0]) * (c[0] - a[0]) + (c[1] - a[1]) * (c[1] - a[1]);
-    /* rounding of collinear nodes */
-    if (!(area2 > 64 * DBL_EPSILON * square))
+    const double least = -flat * square;
+    if (!(area2 > -least))
         return -1;
     for (ptrdiff_t l = r->next[k]; l != j; l = r->next[l]) {
         const int32_t v = r->node[l];
         const double *p = at(r, l);
-        if (v != r->node[i] && v != r->node[j] && v != r->node[k] && turn(a, b, p) >= 0 &&
-            turn(b, c, p) >= 0 && turn(c, a, p) >= 0)
+        if (v != r->node[i] && v != r->node[j] && v != r->node[k] && turn(a, b, p) >= least &&
+            turn(b, c, p) >= least && turn(c, a, p) >= least)
             return -1;
     }
     return 2 * sqrt(3) * area2 / square;

@@ -127,19 +127,40 @@ done:
     return status;
 }
 
-/* Share of the area of s whose outward normal points against the way out. */
-static double undercut_of(const struct skin *s, int pull, int side)
+/* Share of the area of the exterior at `side` of the plane whose normal points against the way out.
+ * Normals are means over the facets around a node: single facets lean by the size of the triangles.
+ */
+static enum pm_status undercut_of(const struct skin *s, int pull, int side, double *share,
+                                  struct pm_err *err)
 {
-    double all = 0, bad = 0;
+    enum pm_status status = PM_OK;
+    double *normal = NULL, all = 0, bad = 0, n[3];
+    PM_TRY(PM_NEW(normal, 3 * s->nn, err));
     for (ptrdiff_t t = 0; t < s->nt; t++) {
-        double n[3];
+        skin_normal(s, t, n);
+        for (int k = 0; k < 9 && s->tag[t] == PM_FACE_EXTERIOR; k++)
+            normal[3 * s->tri[3 * t + k / 3] + k % 3] += n[k % 3];
+    }
+    for (ptrdiff_t t = 0; t < s->nt; t++) {
+        double mean[3] = {0}, place = 0;
+        for (int k = 0; k < 9; k++) {
+            const double *m = normal + 3 * (ptrdiff_t)s->tri[3 * t + k / 3];
+            const double l = sqrt(m[0] * m[0] + m[1] * m[1] + m[2] * m[2]);
+            mean[k % 3] += l > 0 ? m[k % 3] / l : 0;
+            place += k % 3 == pull ? s->x[3 * s->tri[3 * t + k / 3] + pull] : 0;
+        }
+        if (s->tag[t] != PM_FACE_EXTERIOR || side * place <= 0)
+            continue;
         skin_normal(s, t, n);
         const double area = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
         all += area;
-        /* half a degree of draught is the noise of the triangles */
-        bad += side * n[pull] < -0.01 * area ? area : 0;
+        /* walls along the pull are none */
+        bad += side * mean[pull] < -0.02 ? area : 0;
     }
-    return all > 0 ? bad / all : 0;
+    *share = all > 0 ? bad / all : 0;
+done:
+    pm_free(normal);
+    return status;
 }
 
 enum pm_status mould_half(const struct skin *robot, const struct mould_opts *o, int side,
@@ -152,7 +173,7 @@ enum pm_status mould_half(const struct skin *robot, const struct mould_opts *o, 
     PM_TRY(block_bounds(&body, o, low, high, err));
     skin_drop(&body, PM_FACE_BASE);
     PM_TRY(skin_cut(&body, o->pull, 0, side, o->snap, half, err));
-    *undercut = undercut_of(half, o->pull, side);
+    PM_TRY(undercut_of(robot, o->pull, side, undercut, err));
     skin_flip(half, INT32_MIN, INT32_MAX);
     PM_TRY(add_block(half, low, high, o->pull, side, err));
     PM_TRY(add_pins(half, low, high, o, side, err));
