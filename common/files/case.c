@@ -53,6 +53,10 @@ static const struct key keys[] = {
     {"constraints", "wall_min", NUMBER, POSITIVE, AT(c.wall_min), 0},
     {"constraints", "curvature_max", NUMBER, POSITIVE, AT(c.curvature_max), 0},
     {"constraints", "cap_min", NUMBER, NOT_NEGATIVE, AT(c.cap_min), 0},
+    {"constraints", "domain", WORD_AT(domain)},
+    {"constraints", "domain_radius", NUMBER, POSITIVE, AT(c.domain_radius), 0},
+    {"constraints", "domain_x", NUMBER, POSITIVE, AT(c.domain_half[0]), 0},
+    {"constraints", "domain_y", NUMBER, POSITIVE, AT(c.domain_half[1]), 0},
     {"optimisation", "radius", NUMBER, POSITIVE, AT(c.radius), 0},
     {"optimisation", "radius_max", NUMBER, POSITIVE, AT(c.radius_max), 0},
     {"optimisation", "remesh_every", INTEGER, NOT_NEGATIVE, AT(c.remesh_every), 0},
@@ -275,12 +279,15 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .wall_min = 2.5,
                                       .curvature_max = 1,
                                       .cap_min = 3,
+                                      .domain_radius = NAN,
+                                      .domain_half = {NAN, NAN},
                                       .radius = 0.3,
                                       .radius_max = 1,
                                       .remesh_every = 5,
                                       .max_iterations = 140,
                                       .tolerance = 1e-2},
                                 .group = "none",
+                                .domain = "none",
                                 .form = "boundary"};
     for (int l = 0; l < PM_MAX_LAWS; l++)
         for (int i = 0; i < PM_MAX_LAW_PARAMETERS; i++)

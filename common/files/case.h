@@ -12,6 +12,7 @@ enum { PM_MAX_CHAMBERS = 8, PM_MAX_OPS = 12 };
 
 enum pm_shape { PM_SHAPE_SPHERE, PM_SHAPE_ELLIPSOID, PM_SHAPE_CAPSULE, PM_SHAPE_BELLOWS };
 enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE };
+enum pm_domain { PM_DOMAIN_NONE, PM_DOMAIN_CYLINDER, PM_DOMAIN_BOX };
 enum pm_form { PM_FORM_BOUNDARY = 0, PM_FORM_VOLUME = 1 };
 
 /* [chamberN]: a shape of revolution about a line parallel to z through `center`, its cross-sections
@@ -74,9 +75,12 @@ struct pm_case {
     /* [mesh] */
     double mesh_size; /* wanted edge length [mm] */
     /* [constraints] */
-    double wall_min;      /* d_min [mm] */
-    double curvature_max; /* C_max [1/mm] */
-    double cap_min;       /* chambers stay this far from the planes z = 0 and z = H [mm] */
+    double wall_min;       /* d_min [mm] */
+    double curvature_max;  /* C_max [1/mm] */
+    double cap_min;        /* chambers stay this far from the planes z = 0 and z = H [mm] */
+    enum pm_domain domain; /* where the body stays, between the planes z = 0 and z = H */
+    double domain_radius;  /* cylinder about z [mm] */
+    double domain_half[2]; /* box: half-widths in x and y [mm] */
     /* [optimisation] */
     double radius,
         radius_max;    /* trust radius at the start and its cap: rms surface displacement [mm] */

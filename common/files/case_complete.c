@@ -335,6 +335,38 @@ static enum pm_status complete_workspace(struct pm_case_raw *raw, const char *na
     return PM_OK;
 }
 
+/* Keys of another domain are refused; those not used become 0. */
+static enum pm_status complete_domain(struct pm_case_raw *raw, const char *name, struct pm_err *err)
+{
+    struct pm_case *c = &raw->c;
+    static const char *const words[] = {"none", "cylinder", "box"};
+    int k = 0;
+    while (k < 3 && strcmp(words[k], raw->domain) != 0)
+        k++;
+    if (k == 3)
+        return bad_word(name, "domain", raw->domain, "none, cylinder or box", err);
+    c->domain = (enum pm_domain)k;
+    const struct {
+        const char *key;
+        double *value;
+        enum pm_domain of;
+    } use[] = {{"domain_radius", &c->domain_radius, PM_DOMAIN_CYLINDER},
+               {"domain_x", &c->domain_half[0], PM_DOMAIN_BOX},
+               {"domain_y", &c->domain_half[1], PM_DOMAIN_BOX}};
+    for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
+        if (use[i].of == c->domain && isnan(*use[i].value))
+            return missing(name, "constraints", use[i].key, err);
+        if (use[i].of != c->domain && !isnan(*use[i].value))
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': key '%s' in section '[constraints]' is not one of "
+                           "domain = %s",
+                           name, use[i].key, raw->domain);
+        if (use[i].of != c->domain)
+            *use[i].value = 0;
+    }
+    return PM_OK;
+}
+
 enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struct pm_err *err)
 {
     enum pm_status status;
@@ -351,6 +383,7 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
     PM_TRY(pm_case_group(raw->group, c->height, &c->symmetry, name, err));
     PM_TRY(complete_chambers(raw, name, err));
     PM_TRY(check_chambers(c, name, err));
+    PM_TRY(complete_domain(raw, name, err));
     PM_TRY(complete_workspace(raw, name, err));
     if (c->radius > c->radius_max)
         PM_TRY(pm_fail(err, PM_INPUT,

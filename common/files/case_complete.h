@@ -13,7 +13,7 @@ struct pm_chamber_raw {
 struct pm_case_raw {
     struct pm_case c; /* NAN where not given */
     char body[16], group[64], form[16], dofs[32];
-    char preset[32];
+    char preset[32], domain[16];
     /* Parameters of the l-th law of material.c; NAN where not given. */
     double parameter[PM_MAX_LAWS][PM_MAX_LAW_PARAMETERS];
     struct pm_chamber_raw chamber[PM_MAX_CHAMBERS];

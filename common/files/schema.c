@@ -169,6 +169,7 @@ static const struct pm_item table[] = {
     {"step", "/step/max_step", D, "", "mm", "largest control point displacement of the proposal", 1},
     {"step", "/trial/iteration", I64, "nh", "1", "history of judged trials, 0 is the first design", 1},
     {"step", "/trial/accepted", I64, "nh", "1", "1 accepted, 0 rejected", 1},
+    {"step", "/trial/remeshed", I64, "nh", "1", "1: surfremesh changed its surfaces", 1},
     {"step", "/trial/measure", D, "nh", "see work", "measure, 0 where the design failed", 1},
     {"step", "/trial/merit", D, "nh", "see work", "measure minus penalties", 1},
     {"step", "/trial/predicted", D, "nh", "see work", "predicted gain of merit", 1},

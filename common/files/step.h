@@ -9,6 +9,7 @@
 struct pm_trial {
     int64_t iteration; /* 0 is the first design */
     int64_t accepted;  /* 1, 0 */
+    int64_t remeshed;  /* 1: surfremesh changed its surfaces */
     double measure;    /* T; 0 where the design failed (then the reason says why) */
     double merit;      /* T - rho_c C_c - rho_t C_t with the weights of its sub-problem */
     double predicted;  /* predicted gain of merit over the last accepted design */

@@ -7,6 +7,9 @@
 
 #include "common/base/memory.h"
 #include "common/geometry/curvature.h"
+#include "common/geometry/domain.h"
+
+static const double OUTSIDE = 0.01; /* mm */
 
 struct field {
     const struct pm_surfaces *s;
@@ -82,6 +85,21 @@ static enum pm_status walls(const struct field *f, struct pm_check *c, struct pm
 done:
     pm_free(near);
     return status;
+}
+
+static void domain(const struct field *f, struct pm_check *c)
+{
+    double n[3];
+
+    c->outside = -INFINITY;
+    for (ptrdiff_t i = 0; i < f->m.first[1]; i++)
+        for (int axis = 0; axis < 2; axis++) {
+            const double depth = pm_domain_depth(&f->s->pcase, 0, axis, &f->x[3 * i], n);
+            if (!(depth > c->outside))
+                continue;
+            c->outside = depth;
+            memcpy(c->outside_x, &f->x[3 * i], sizeof c->outside_x);
+        }
 }
 
 static enum pm_status maps(const struct field *f, ptrdiff_t k, struct pm_check *c,
@@ -173,7 +191,7 @@ enum pm_status pm_surfaces_measure(const struct pm_surfaces *s, struct pm_check 
     struct field f = {.s = s};
 
     *check = (struct pm_check){.coverage = INFINITY};
-    PM_TRY(pm_samples_new(s, s->pcase.wall_min / 2, 1, &f.m, err));
+    PM_TRY(pm_samples_with_nodes(s, s->pcase.wall_min / 2, 1, &f.m, err));
     PM_TRY(PM_NEW(f.phi, 3 * s->offset[s->ns], err));
     PM_TRY(PM_NEW(f.x, 3 * f.m.n, err));
     PM_TRY(PM_NEW(f.normal, 3 * f.m.n, err));
@@ -185,6 +203,7 @@ enum pm_status pm_surfaces_measure(const struct pm_surfaces *s, struct pm_check 
         PM_TRY(cover(&f, k, check, err));
     for (ptrdiff_t k = 1; k < s->ns; k++)
         containment(&f, k, check);
+    domain(&f, check);
     PM_TRY(walls(&f, check, err));
 done:
     pm_samples_release(&f.m);
@@ -214,5 +233,10 @@ enum pm_status pm_surfaces_check(const struct pm_surfaces *s, struct pm_check *c
                        "chamber within %.4g of an end plane at (%.4g, %.4g, %.4g), expected >= %g",
                        check->cap, check->cap_x[0], check->cap_x[1], check->cap_x[2],
                        s->pcase.cap_min);
+    if (check->outside > OUTSIDE)
+        return pm_fail(
+            err, PM_INPUT,
+            "body leaves the design domain by %.4g at (%.4g, %.4g, %.4g), expected inside",
+            check->outside, check->outside_x[0], check->outside_x[1], check->outside_x[2]);
     return PM_OK;
 }

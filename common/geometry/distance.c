@@ -48,7 +48,7 @@ enum pm_status pm_distance_project(const struct pm_map *map, int32_t type, const
         for (int j = 0; j < 3; j++)
             d[j] = p[j] - r[j];
         len = foot_step(d, r_a, r_ab, y);
-        for (int cut = 0; cut < 8 && len > 1e-9; cut++, y[0] /= 2, y[1] /= 2, len /= 2) {
+        for (int cut = 0; cut < 8 && len > 1e-6; cut++, y[0] /= 2, y[1] /= 2, len /= 2) {
             pm_map_move(type, S, y, trial);
             PM_TRY(pm_map_point(map, phi, trial, work, x, NULL, NULL, err));
             *distance = hypot(hypot(p[0] - x[0], p[1] - x[1]), p[2] - x[2]);

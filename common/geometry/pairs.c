@@ -181,3 +181,106 @@ done:
     pm_free(g.list);
     return status;
 }
+
+/* The best of one sample: slots 0 .. ns - 1 by surface, behind them inside and outside. */
+enum { SLOTS = PM_MAX_CHAMBERS + 3 };
+
+static double across(const double *normal, const double *from, const double *to)
+{
+    return normal[0] * (to[0] - from[0]) + normal[1] * (to[1] - from[1]) +
+           normal[2] * (to[2] - from[2]);
+}
+
+/* Within 60 degrees of the normals at both ends: -1 where the two do not face each other. */
+static int32_t facing(const struct search *q, const double *normal, ptrdiff_t i, ptrdiff_t j,
+                      double distance)
+{
+    const double *a = &q->x[3 * i], *b = &q->x[3 * j];
+    if (q->m->surface[i] != q->m->surface[j])
+        return q->m->surface[j];
+    const double leave = across(&normal[3 * i], a, b), enter = across(&normal[3 * j], b, a);
+    if (fmin(leave, enter) > distance / 2)
+        return SLOTS + PM_NEAR_OUTSIDE;
+    return fmax(leave, enter) < -distance / 2 ? SLOTS + PM_NEAR_INSIDE : -1;
+}
+
+static void best_in_cell(const struct search *q, const struct grid *g, const double *normal,
+                         ptrdiff_t i, ptrdiff_t cell, struct pm_pair best[SLOTS])
+{
+    double distance;
+
+    for (ptrdiff_t k = g->start[cell]; k < g->start[cell + 1]; k++) {
+        const ptrdiff_t j = g->list[k];
+        if (j == i || !close_pair(q, i, j, &distance))
+            continue;
+        const int32_t slot = facing(q, normal, i, j, distance);
+        if (slot >= 0 && distance < best[slot].distance)
+            best[slot] = (struct pm_pair){(int32_t)i, (int32_t)j, distance};
+    }
+}
+
+static void best_around(const struct search *q, const struct grid *g, const double *normal,
+                        ptrdiff_t i, struct pm_pair best[SLOTS])
+{
+    ptrdiff_t lo[3], hi[3];
+
+    for (int j = 0; j < 3; j++) {
+        const ptrdiff_t at = place(g, q->x[3 * i + j], j);
+        lo[j] = at > 0 ? at - 1 : 0;
+        hi[j] = at + 1 < g->dim[j] ? at + 1 : at;
+    }
+    for (int k = 0; k < SLOTS; k++)
+        best[k].distance = HUGE_VAL;
+    for (ptrdiff_t a = lo[0]; a <= hi[0]; a++)
+        for (ptrdiff_t b = lo[1]; b <= hi[1]; b++)
+            for (ptrdiff_t c = lo[2]; c <= hi[2]; c++)
+                best_in_cell(q, g, normal, i, (a * g->dim[1] + b) * g->dim[2] + c, best);
+}
+
+static enum pm_status push_near(struct pm_near **near, ptrdiff_t *n, ptrdiff_t *capacity,
+                                const struct pm_pair best[SLOTS], struct pm_err *err)
+{
+    if (*n + SLOTS > *capacity) {
+        const ptrdiff_t more = 2 * *capacity + 1024;
+        struct pm_near *p = pm_realloc(*near, more, sizeof *p, err);
+        if (p == NULL)
+            return PM_SYSTEM;
+        *near = p;
+        *capacity = more;
+    }
+    for (int32_t k = 0; k < SLOTS; k++)
+        if (best[k].distance != HUGE_VAL)
+            (*near)[(*n)++] = (struct pm_near){
+                best[k].i, best[k].j, k > PM_MAX_CHAMBERS ? k - SLOTS : k, best[k].distance};
+    return PM_OK;
+}
+
+enum pm_status pm_samples_near(const struct pm_samples *samples, const double *x,
+                               const double *normal, const unsigned char *from, double cutoff,
+                               double geodesic, struct pm_near **near, ptrdiff_t *n,
+                               struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct grid g = {0};
+    struct search q = {samples, x, cutoff, geodesic, samples->first[1]};
+    struct pm_pair best[SLOTS];
+    ptrdiff_t capacity = 0;
+
+    *near = NULL;
+    *n = 0;
+    PM_TRY(grid_new(samples->n, x, cutoff, &g, err));
+    for (ptrdiff_t i = 0; i < samples->n; i++) {
+        if (!from[i])
+            continue;
+        best_around(&q, &g, normal, i, best);
+        PM_TRY(push_near(near, n, &capacity, best, err));
+    }
+done:
+    if (status != PM_OK) {
+        pm_free(*near);
+        *near = NULL;
+    }
+    pm_free(g.start);
+    pm_free(g.list);
+    return status;
+}

@@ -152,6 +152,30 @@ static enum pm_status add_row(struct pm_samples *m, ptrdiff_t i, const struct pm
     return PM_OK;
 }
 
+/* Sample i of surface k, whose S and w are set. */
+static enum pm_status add_sample(struct pm_samples *m, const struct pm_surfaces *s, ptrdiff_t k,
+                                 const struct pm_map *map, ptrdiff_t i, struct pm_basis *b,
+                                 ptrdiff_t *capacity, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_curvature c;
+    double r_a[6];
+
+    PM_TRY(pm_map_basis(map, &m->S[3 * i], 2, b, err));
+    PM_TRY(add_row(m, i, b, s->offset[k], capacity, err));
+    pm_basis_apply(b, s->s[k].phi, NULL, r_a, NULL);
+    pm_curvature_at(r_a, NULL, &c);
+    m->surface[i] = (int32_t)k;
+    m->area[i] = m->w[i] * c.A;
+    for (int j = 0; j < 3; j++) {
+        m->metric[3 * i] += r_a[j] * r_a[j];
+        m->metric[3 * i + 1] += r_a[j] * r_a[3 + j];
+        m->metric[3 * i + 2] += r_a[3 + j] * r_a[3 + j];
+    }
+done:
+    return status;
+}
+
 /* Samples of surface k from number m->first[k] on. */
 static enum pm_status fill(struct pm_samples *m, const struct pm_surfaces *s, ptrdiff_t k,
                            const struct pm_map *map, const ptrdiff_t *cuts, ptrdiff_t *capacity,
@@ -160,28 +184,20 @@ static enum pm_status fill(struct pm_samples *m, const struct pm_surfaces *s, pt
     enum pm_status status = PM_OK;
     const struct pm_surface *f = &s->s[k];
     struct pm_basis b = {0};
-    struct pm_curvature c;
     struct patch p;
     ptrdiff_t i = m->first[k];
-    double r_a[6];
 
     for (ptrdiff_t t = 0; t < f->nt; t++) {
         patch_init(f, t, &p);
         p.cuts = cuts[t];
         for (ptrdiff_t q = 0; q < cuts[t] * cuts[t]; q++, i++) {
             part(&p, q, &m->S[3 * i], &m->w[i]);
-            PM_TRY(pm_map_basis(map, &m->S[3 * i], 2, &b, err));
-            PM_TRY(add_row(m, i, &b, s->offset[k], capacity, err));
-            pm_basis_apply(&b, f->phi, NULL, r_a, NULL);
-            pm_curvature_at(r_a, NULL, &c);
-            m->surface[i] = (int32_t)k;
-            m->area[i] = m->w[i] * c.A;
-            for (int j = 0; j < 3; j++) {
-                m->metric[3 * i] += r_a[j] * r_a[j];
-                m->metric[3 * i + 1] += r_a[j] * r_a[3 + j];
-                m->metric[3 * i + 2] += r_a[3 + j] * r_a[3 + j];
-            }
+            PM_TRY(add_sample(m, s, k, map, i, &b, capacity, err));
         }
+    }
+    for (ptrdiff_t a = 0; i < m->first[k + 1]; a++, i++) {
+        memcpy(&m->S[3 * i], &f->Phi[3 * a], 3 * sizeof *m->S);
+        PM_TRY(add_sample(m, s, k, map, i, &b, capacity, err));
     }
 done:
     pm_basis_release(&b);
@@ -202,8 +218,8 @@ done:
     return status;
 }
 
-enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
-                              struct pm_samples *samples, struct pm_err *err)
+static enum pm_status make(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts, int nodes,
+                           struct pm_samples *samples, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_samples m = {0};
@@ -216,6 +232,7 @@ enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdi
         PM_TRY(PM_NEW(plans[k], s->s[k].nt, err));
         PM_TRY(pm_map_new(&s->s[k], &map[k], err));
         PM_TRY(plan(&s->s[k], map[k], spacing, cuts, plans[k], &m.n, err));
+        m.n += nodes ? s->s[k].n : 0;
         m.first[k + 1] = m.n;
     }
     PM_TRY(reserve(&m, err));
@@ -230,6 +247,18 @@ done:
     }
     pm_samples_release(&m);
     return status;
+}
+
+enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
+                              struct pm_samples *samples, struct pm_err *err)
+{
+    return make(s, spacing, cuts, 0, samples, err);
+}
+
+enum pm_status pm_samples_with_nodes(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
+                                     struct pm_samples *samples, struct pm_err *err)
+{
+    return make(s, spacing, cuts, 1, samples, err);
 }
 
 void pm_samples_release(struct pm_samples *m)

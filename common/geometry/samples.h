@@ -25,6 +25,10 @@ struct pm_samples {
  * and dense where control points are. */
 enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
                               struct pm_samples *samples, struct pm_err *err);
+/* The same and, behind those of each surface, one without weight (w = area = 0) at every control
+ * point: the curvature of splines peaks there. */
+enum pm_status pm_samples_with_nodes(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
+                                     struct pm_samples *samples, struct pm_err *err);
 void pm_samples_release(struct pm_samples *samples);
 /* r (3), r_a (2 x 3), r_ab (3 x 3) of sample i for control points phi (N x 3, global); NULL where
  * not wanted. */
@@ -45,5 +49,21 @@ struct pm_pair {
 enum pm_status pm_samples_pairs(const struct pm_samples *samples, const double *x, double cutoff,
                                 double geodesic, struct pm_pair **pairs, ptrdiff_t *n,
                                 struct pm_err *err);
+
+/* What a sample faces: `other` is a surface, or an end of the two ways out of its own one. */
+enum { PM_NEAR_OUTSIDE = -1, PM_NEAR_INSIDE = -2 };
+struct pm_near {
+    int32_t i, j; /* sample, nearest sample there */
+    int32_t other;
+    double distance; /* [mm] */
+};
+/* For every sample i with from[i]: the nearest sample closer than `cutoff` on each other surface,
+ * and on its own, further than `geodesic` along it, the nearest that it faces, within 60 degrees of
+ * both normals, through the outside and through the inside of the closed surface. Sorted by i, then
+ * other; *near is new memory (pm_free). */
+enum pm_status pm_samples_near(const struct pm_samples *samples, const double *x,
+                               const double *normal, const unsigned char *from, double cutoff,
+                               double geodesic, struct pm_near **near, ptrdiff_t *n,
+                               struct pm_err *err);
 
 #endif

@@ -254,6 +254,8 @@ int main(void)
     refuse_image("section = 1.2, 0.8\nturn = 30\n", "same shape, turn and twist");
     refuse_image("twist = 30\n", "'twist' without 'section'");
     refuse_image("section = 1.2\n", "expected two numbers");
+    refuse("cap_min = 3", "cap_min = 3\ndomain = cylinder\ndomain_radius = 20",
+           "leaves the design domain");
     displace(-6, "chambers 1 and 2 meet");
     displace(8, "leaves the body");
     displace(60, "leaves the body");

@@ -1,63 +1,77 @@
-/* Penalties of the trust-region sub-problem on fixed samples of the surfaces [paper 79, 80; model
- * 8]:
+/* Constraints of the trust-region sub-problem on fixed samples q of the surfaces, each g <= 0
+ * [paper 79, 80; model 8]:
  *
- *   curvature  sum_q a_q <Q_q - Cmax^2>^2 / Cmax^4,  Q = c1^2 + c2^2, a_q = share of the area
- *   wall       sum_ij a_i area_j/d^2 <d^2 - |r_i - r_j|^2>^2 / d^4 over pairs of samples,
- *              + sum_q a_q (<c - z_q>^2 + <z_q - H + c>^2) / wall_min^2, the planes of the ends
+ *   curvature  g = Q/Cmax^2 - 1,  Q = c1^2 + c2^2
+ *   wall       g = 1 - m.(r_q - r*)/d;  r* is the foot of the sample on what it faces, m the unit
+ *              vector from there into the solid: at a foot the derivative of the distance with r*
+ * and m held is the exact one, and where surfaces have crossed m pulls them back bounds     g =
+ * depth/wall_min beyond the planes of the ends and the sides of the domain
  *
- * <x> = max(x, 0). The distance d is wall_min, plus a margin for the spacing of samples, where the
- * pair looks at each other through the solid; pairs of one surface that look at each other across a
- * void (the two sides of a thin cavity, of a groove) keep VOID_SHARE of it; neighbours on one
- * surface count from a path length of GEODESIC wall_min on. c = cap_min for chambers, and the
- * exterior stays between the end planes. Samples that no free control point moves do not count. */
+ * d = wall_min through the solid, to other surfaces and to parts of the same one that are further
+ * than GEODESIC wall_min along it, VOID_SHARE wall_min through a void (a thin cavity, a groove).
+ * Chambers keep cap_min from the end planes, the exterior ends there. What no free control point
+ * moves does not count. Every constraint has the weight a_q, the sample's share of the area, and a
+ * multiplier lambda of the augmented Lagrangian
+ *
+ *   L = sum a_q (<lambda + rho g>^2 - lambda^2)/(2 rho),  <x> = max(x, 0);
+ *
+ * the penalties of the merit are C_c and C_t = sum a_q <g>^2. The symmetry of the surfaces is used:
+ * phi must be symmetric, only samples of one fundamental domain are evaluated. */
 #ifndef TRSTEP_PENALTY_H
 #define TRSTEP_PENALTY_H
 
 #include "common/geometry/samples.h"
 
-struct penalty_pair {
-    int32_t i, j;
-    double limit;  /* d [mm] */
-    double weight; /* a_i area_j/d^2 [1] */
+/* A sample and its foot on what it faces. */
+struct penalty_wall {
+    int32_t i, other; /* as in struct pm_near; sorted by i, then other */
+    double S[3];      /* parameter of the foot */
+    double m[3];
+    double limit; /* d [mm] */
+    double multiplier;
+    ptrdiff_t first; /* its weights end where those of the next wall begin */
 };
 
 struct penalty {
-    const struct pm_case *c; /* borrowed */
+    const struct pm_surfaces *s; /* borrowed */
+    const struct pm_case *c;
     struct pm_samples samples;
-    double *share; /* a_q, 0 where nothing is free (n) */
-    double margin; /* of the distance between samples over that of the surfaces [mm] */
-    double *x;     /* positions, scratch (n x 3) [mm] */
-    double *force; /* dC/dr of the samples, scratch (n x 3) */
-};
-
-/* What may become active within the reach of a step. */
-struct penalty_watch {
-    unsigned char *flag; /* what to evaluate, private bits (n) */
-    ptrdiff_t npair;
-    struct penalty_pair *pair; /* by i, then j (npair) */
+    struct pm_map *map[PM_MAX_CHAMBERS + 1];
+    struct pm_basis work;
+    unsigned char *from, *flag; /* evaluated at all; what to evaluate, private bits (n) */
+    double *share;              /* a_q, times the operations of the symmetry (n) */
+    double *x, *normal;         /* scratch (n x 3) [mm] */
+    double *bend;               /* multipliers of the curvature (n) */
+    double *bound;              /* multipliers of the bounds x or radius, y, z (n x 3) */
+    ptrdiff_t nwall, nw, capacity;
+    struct penalty_wall *wall; /* (nwall + 1): an end behind the last */
+    int32_t *col;              /* weights of the feet: global control point, weight (nw) */
+    double *weight;
+    double cover; /* samples lie closer than this to every point of a surface [mm] */
 };
 
 struct penalty_value {
-    double curvature, wall; /* the sums above, without weights rho */
-    double worst_curvature,
-        worst_wall; /* largest relative excess of curvature and lack of distance, >= 0 */
+    double lagrangian;
+    double sum[2];   /* C_c, C_t */
+    double worst[2]; /* largest relative excess of curvature and lack of distance, >= 0 */
 };
 
 enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struct pm_err *err);
 void penalty_release(struct penalty *p);
-/* Adds to *watch (empty: zeros) what can become active if every point moves by at most `reach` mm
- * from phi (N x 3) and curvatures below `calm` times Cmax do not; reach 0, calm 1: the present
- * violations. */
-enum pm_status penalty_collect(struct penalty *p, struct penalty_watch *watchatch,
-                               const double *phi, double reach, double calm, struct pm_err *err);
-void penalty_watch_release(struct penalty_watch *watch);
-/* The collected terms at phi; gradient (N x 3) += d(rho_c curvature + rho_t wall)/dphi unless NULL.
+/* Finds the feet at phi (N x 3) of everything closer than `reach` mm to its limit and the samples
+ * with more than `calm` times Cmax; multipliers of what was known are kept. */
+enum pm_status penalty_collect(struct penalty *p, const double *phi, double reach, double calm,
+                               struct pm_err *err);
+/* The collected constraints at phi with rho of curvature and walls; gradient (N x 3) += dL/dphi
+ * unless NULL. */
+void penalty_at(const struct penalty *p, const double *phi, const double rho[2], double *gradient,
+                struct penalty_value *v);
+/* lambda <- <lambda + rho g> at phi. */
+void penalty_raise(struct penalty *p, const double *phi, const double rho[2]);
+/* lambda <- 0 */
+void penalty_relax(struct penalty *p);
+/* Largest part 1, 1/2, 1/4 .. of a step for which no area element falls below a fifth of its size.
  */
-void penalty_at(struct penalty *p, const struct penalty_watch *watchatch, const double *phi,
-                const double rho[2], double *gradient, struct penalty_value *v);
-/* Largest part t in (0, 1] of a step for which no watched pair moves by more than half its distance
- * (walls cannot be crossed) and no area element falls below FOLD_SHARE of its size. */
-double penalty_safe_part(struct penalty *p, const struct penalty_watch *watchatch,
-                         const double *phi, const double *step);
+double penalty_safe_part(const struct penalty *p, const double *phi, const double *step);
 
 #endif

@@ -9,62 +9,45 @@
 #include "tools/trstep/subproblem.h"
 #include "tools/trstep/trstep.h"
 
-/* LEAST_GAIN: share of the largest linear gain that the constraints must leave to the measure.
- * ROUNDS: times that the watch lists are widened because the step met a violation outside of them.
- */
-static const double LEAST_GAIN = 0.1, STIFFNESS = 200;
-enum { ROUNDS = 3, LOWERINGS = 8 };
+/* Largest relative violations of curvature and walls: where the multipliers are left, and what no
+ * proposal exceeds unless its start does. */
+static const double WANTED[2] = {0.02, 0.005}, ALLOWED[2] = {0.05, 0.02};
+/* rho of the augmented Lagrangian at the start over slope * wall_min, its growth where a round
+ * leaves more than SLOW of a violation. Weights of the merit over slope * wall_min. A proposal that
+ * gains less than LEAST_GAIN of the measure is none. */
+static const double STIFFNESS = 150, GROWTH = 3, SLOW = 0.3, MERIT = 40, LEAST_GAIN = 1e-6;
+enum { ROUNDS = 12, HALVINGS = 8 };
 
 struct proposal {
     struct pm_step *s;
     struct penalty penalty;
-    struct penalty_watch watch;
     ptrdiff_t N;
+    double rho[2];
     double *phi;   /* accepted control points (N x 3) [mm] */
     double *step;  /* (N x 3) [mm] */
     double *trial; /* phi + step, scratch (N x 3) */
     double *mass;  /* (N) */
 };
 
+static void move(struct proposal *p, const double *step)
+{
+    for (ptrdiff_t i = 0; i < 3 * p->N; i++)
+        p->trial[i] = p->phi[i] + step[i];
+}
+
 static double penalise(void *context, const double *step, double *gradient)
 {
     struct proposal *p = context;
     struct penalty_value v;
-    for (ptrdiff_t i = 0; i < 3 * p->N; i++)
-        p->trial[i] = p->phi[i] + step[i];
-    penalty_at(&p->penalty, &p->watch, p->trial, p->s->weight, gradient, &v);
-    return p->s->weight[0] * v.curvature + p->s->weight[1] * v.wall;
+    move(p, step);
+    penalty_at(&p->penalty, p->trial, p->rho, gradient, &v);
+    return v.lagrangian;
 }
 
 static void project(void *context, double *v)
 {
     const struct proposal *p = context;
     pm_symmetrise_vectors(&p->s->accepted, v);
-}
-
-/* All violations at phi, whether watched or not. */
-static enum pm_status full_penalty(struct proposal *p, const double *phi, double sum[2],
-                                   double worst[2], struct pm_err *err)
-{
-    enum pm_status status;
-    struct penalty_value v;
-    struct penalty_watch all = {0};
-    const double none[2] = {0, 0};
-
-    PM_TRY(penalty_collect(&p->penalty, &all, phi, 0, 1, err));
-    penalty_at(&p->penalty, &all, phi, none, NULL, &v);
-    sum[0] = v.curvature;
-    sum[1] = v.wall;
-    worst[0] = v.worst_curvature;
-    worst[1] = v.worst_wall;
-done:
-    penalty_watch_release(&all);
-    return status;
-}
-
-static double weighted(const struct pm_step *s, const double sum[2])
-{
-    return s->weight[0] * sum[0] + s->weight[1] * sum[1];
 }
 
 static struct subproblem subproblem_of(struct proposal *p)
@@ -78,38 +61,49 @@ static struct subproblem subproblem_of(struct proposal *p)
                                .context = p};
 }
 
-/* How far from a limit pairs are watched from the start; others are found when a step meets them.
- */
-static double reach(const struct pm_step *s)
+static double weighted(const struct pm_step *s, const double sum[2])
 {
-    return fmin(s->radius, s->accepted.pcase.wall_min) / 4;
+    return s->weight[0] * sum[0] + s->weight[1] * sum[1];
 }
 
-/* The step for the present weights; the watch lists grow until the step meets no violation outside
- * them. */
-static enum pm_status solve(struct proposal *p, struct pm_err *err)
+/* No point moves further than 2 radii: what is within reach cannot be crossed unseen. */
+static double reach(const struct pm_step *s)
+{
+    return fmax(4 * s->radius - s->accepted.pcase.wall_min, s->radius / 2);
+}
+
+/* All constraints at phi. */
+static enum pm_status measure(struct proposal *p, const double *phi, double sum[2], double worst[2],
+                              struct pm_err *err)
+{
+    enum pm_status status;
+    struct penalty_value v;
+
+    PM_TRY(penalty_collect(&p->penalty, phi, reach(p->s), 0.8, err));
+    penalty_at(&p->penalty, phi, p->rho, NULL, &v);
+    memcpy(sum, v.sum, sizeof v.sum);
+    memcpy(worst, v.worst, sizeof v.worst);
+done:
+    return status;
+}
+
+/* Is the proposal fit for use? What the start violates must not get worse. */
+static int fit(const struct pm_step *s, const double limit[2])
+{
+    for (int k = 0; k < 2; k++)
+        if (s->trial_worst[k] > limit[k] && !(s->trial_worst[k] <= s->worst[k] && limit != WANTED))
+            return 0;
+    return 1;
+}
+
+static enum pm_status complete(struct proposal *p, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_step *s = p->s;
     const struct subproblem problem = subproblem_of(p);
-    const double unit = s->radius * subproblem_dual_norm(&problem, s->gradient);
 
-    memset(p->step, 0, (size_t)(3 * p->N) * sizeof *p->step);
-    for (int round = 0; round < ROUNDS; round++) {
-        PM_TRY(subproblem_solve(&problem, p->step, err));
-        const double known = penalise(p, p->step, NULL);
-        PM_TRY(penalty_collect(&p->penalty, &p->watch, p->trial, reach(s), 0.8, err));
-        const double part = penalty_safe_part(&p->penalty, &p->watch, p->phi, p->step);
-        for (ptrdiff_t i = 0; i < 3 * p->N; i++) {
-            p->step[i] *= part;
-            p->trial[i] = p->phi[i] + p->step[i];
-        }
-        PM_TRY(full_penalty(p, p->trial, s->trial_penalty, s->trial_worst, err));
-        if (weighted(s, s->trial_penalty) <= known + 0.02 * unit)
-            break;
-    }
-    s->gain = 0;
-    s->max_step = 0;
+    PM_TRY(measure(p, p->trial, s->trial_penalty, s->trial_worst, err));
+    s->gain = s->max_step = 0;
     for (ptrdiff_t i = 0; i < 3 * p->N; i++)
         s->gain += s->gradient[i] * p->step[i];
     for (ptrdiff_t m = 0; m < p->N; m++) {
@@ -121,40 +115,98 @@ done:
     return status;
 }
 
-static enum pm_status search(struct proposal *p, struct pm_err *err)
+/* Method of multipliers at the present radius [model 8]; feet follow the surfaces between the
+ * rounds. */
+static enum pm_status solve(struct proposal *p, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_step *s = p->s;
     const struct subproblem problem = subproblem_of(p);
-    const double unit = s->radius * subproblem_dual_norm(&problem, s->gradient);
+    double last[2] = {HUGE_VAL, HUGE_VAL};
 
-    PM_TRY(penalty_collect(&p->penalty, &p->watch, p->phi, reach(s), 0.7, err));
-    for (int k = 0;; k++) {
-        PM_TRY(solve(p, err));
-        const double gain = s->gain - weighted(s, s->trial_penalty) + weighted(s, s->penalty);
-        pm_log(
-            2,
-            "sub-problem: gain of T %.4g of %.4g, of merit %.4g, violations %.3g %.3g, %td pairs",
-            s->gain, unit, gain, s->trial_worst[0], s->trial_worst[1], p->watch.npair);
-        if (gain > 0 && s->gain > LEAST_GAIN * unit)
+    for (int round = 0; round < ROUNDS; round++) {
+        PM_TRY(subproblem_solve(&problem, p->step, err));
+        const double part = penalty_safe_part(&p->penalty, p->phi, p->step);
+        for (ptrdiff_t i = 0; i < 3 * p->N; i++)
+            p->step[i] *= part;
+        move(p, p->step);
+        penalty_raise(&p->penalty, p->trial, p->rho);
+        PM_TRY(complete(p, err));
+        pm_log(2, "round %d: gain %.4g, violations %.4f %.4f, %td walls, step %.3g, part %g", round,
+               s->gain, s->trial_worst[0], s->trial_worst[1], p->penalty.nwall, s->rms_step, part);
+        if (fit(s, WANTED))
             break;
-        if (k == LOWERINGS) {
-            snprintf(s->verdict, sizeof s->verdict, "stalled");
-            break;
+        for (int k = 0; k < 2; k++) {
+            if (s->trial_worst[k] > fmax(WANTED[k], SLOW * last[k]))
+                p->rho[k] *= GROWTH;
+            last[k] = s->trial_worst[k];
         }
-        s->weight[0] /= 3;
-        s->weight[1] /= 3;
     }
 done:
     return status;
 }
 
-static void stiffen(struct proposal *p)
+/* Halves the radius until the constraints can be held. */
+static enum pm_status search(struct proposal *p, struct pm_err *err)
 {
+    enum pm_status status;
+    struct pm_step *s = p->s;
+    const double start[2] = {p->rho[0], p->rho[1]};
+
+    for (int k = 0;; k++) {
+        PM_TRY(solve(p, err));
+        if (fit(s, ALLOWED))
+            break;
+        if (k == HALVINGS) {
+            pm_log(1, "no step holds the constraints: violations %.3g %.3g, at the start %.3g %.3g",
+                   s->trial_worst[0], s->trial_worst[1], s->worst[0], s->worst[1]);
+            snprintf(s->verdict, sizeof s->verdict, "stalled");
+            break;
+        }
+        s->radius /= 2;
+        memcpy(p->rho, start, sizeof start);
+        for (ptrdiff_t i = 0; i < 3 * p->N; i++)
+            p->step[i] /= 2;
+        move(p, p->step);
+        penalty_relax(&p->penalty);
+        PM_TRY(complete(p, err));
+    }
+    /* What a step gives up for less violation must count as a gain of merit. */
+    const double eased = s->penalty[0] + s->penalty[1] - s->trial_penalty[0] - s->trial_penalty[1];
+    for (int k = 0; k < HALVINGS && s->gain < 0 && eased > 0 &&
+                    s->gain + weighted(s, s->penalty) - weighted(s, s->trial_penalty) < -s->gain;
+         k++) {
+        s->weight[0] *= GROWTH;
+        s->weight[1] *= GROWTH;
+    }
+    if (!(s->gain + weighted(s, s->penalty) - weighted(s, s->trial_penalty) >
+          LEAST_GAIN * fabs(s->value)))
+        snprintf(s->verdict, sizeof s->verdict, "stalled");
+done:
+    return status;
+}
+
+static enum pm_status prepare(struct proposal *p, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_step *s = p->s;
+
+    PM_TRY(PM_NEW(p->phi, 3 * p->N, err));
+    PM_TRY(PM_NEW(p->step, 3 * p->N, err));
+    PM_TRY(PM_NEW(p->trial, 3 * p->N, err));
+    PM_TRY(PM_NEW(p->mass, p->N, err));
+    pm_surfaces_gather(&s->accepted, p->phi);
+    PM_TRY(penalty_new(&s->accepted, &p->penalty, err));
+    subproblem_mass(&s->accepted, &p->penalty.samples, p->mass);
     const struct subproblem problem = subproblem_of(p);
-    const double slope = subproblem_dual_norm(&problem, p->s->gradient);
-    for (int k = 0; k < 2; k++)
-        p->s->weight[k] = fmax(p->s->weight[k], STIFFNESS * slope);
+    const double scale = subproblem_dual_norm(&problem, s->gradient) * s->accepted.pcase.wall_min;
+    for (int k = 0; k < 2; k++) {
+        p->rho[k] = STIFFNESS * scale;
+        s->weight[k] = fmax(s->weight[k], MERIT * scale);
+    }
+    PM_TRY(measure(p, p->phi, s->penalty, s->worst, err));
+done:
+    return status;
 }
 
 enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
@@ -162,21 +214,12 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
     enum pm_status status;
     struct proposal p = {.s = s, .N = s->accepted.offset[s->accepted.ns]};
 
-    PM_TRY(PM_NEW(p.phi, 3 * p.N, err));
-    PM_TRY(PM_NEW(p.step, 3 * p.N, err));
-    PM_TRY(PM_NEW(p.trial, 3 * p.N, err));
-    PM_TRY(PM_NEW(p.mass, p.N, err));
-    pm_surfaces_gather(&s->accepted, p.phi);
-    PM_TRY(penalty_new(&s->accepted, &p.penalty, err));
-    subproblem_mass(&s->accepted, &p.penalty.samples, p.mass);
-    stiffen(&p);
-    PM_TRY(full_penalty(&p, p.phi, s->penalty, s->worst, err));
+    PM_TRY(prepare(&p, err));
     if (strcmp(s->verdict, "continue") == 0)
         PM_TRY(search(&p, err));
     PM_TRY(pm_surfaces_copy(&s->accepted, &s->trial, err));
     if (strcmp(s->verdict, "continue") == 0) {
-        for (ptrdiff_t i = 0; i < 3 * p.N; i++)
-            p.trial[i] = p.phi[i] + p.step[i];
+        move(&p, p.step);
         pm_symmetrise_points(&s->accepted, p.trial);
         pm_surfaces_scatter(&s->trial, p.trial);
     } else {
@@ -185,11 +228,31 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
         memcpy(s->trial_worst, s->worst, sizeof s->worst);
     }
 done:
-    penalty_watch_release(&p.watch);
     penalty_release(&p.penalty);
     pm_free(p.phi);
     pm_free(p.step);
     pm_free(p.trial);
     pm_free(p.mass);
+    return status;
+}
+
+enum pm_status trstep_measure(const struct pm_surfaces *s, double sum[2], double worst[2],
+                              struct pm_err *err)
+{
+    enum pm_status status;
+    struct penalty p = {.s = NULL};
+    struct penalty_value v;
+    double *phi = NULL;
+
+    PM_TRY(PM_NEW(phi, 3 * s->offset[s->ns], err));
+    pm_surfaces_gather(s, phi);
+    PM_TRY(penalty_new(s, &p, err));
+    PM_TRY(penalty_collect(&p, phi, 0, 1, err));
+    penalty_at(&p, phi, (const double[]){0, 0}, NULL, &v);
+    memcpy(sum, v.sum, sizeof v.sum);
+    memcpy(worst, v.worst, sizeof v.worst);
+done:
+    penalty_release(&p);
+    pm_free(phi);
     return status;
 }

@@ -106,7 +106,7 @@ static enum pm_status minimise(struct scaled *c, ptrdiff_t n, lbfgsfloatval_t *z
 
     lbfgs_parameter_init(&parameter);
     parameter.m = 10;
-    parameter.max_iterations = 100;
+    parameter.max_iterations = 50;
     parameter.epsilon = 1e-3;
     parameter.past = 5; /* also ends where five iterations gain less than 3e-4 of the objective */
     parameter.delta = 3e-4;

@@ -9,14 +9,13 @@
 #include "common/files/sens.h"
 #include "common/geometry/symmetry.h"
 
-/* A violation beyond ALLOWED makes its weight grow. */
-static const double ALLOWED = 0.05, GROWTH = 3;
-
 struct trial {
     struct pm_surfaces surfaces;
     struct pm_work work;
     struct pm_step previous;
     const struct pm_step *before; /* &previous or NULL */
+    int remeshed;                 /* surfremesh came between the proposal and this trial */
+    double penalty[2], worst[2];  /* of the trial's surfaces; first design: unknown yet */
     struct judgement judgement;
 };
 
@@ -36,6 +35,21 @@ static enum pm_status same_case(const struct pm_case *expected, const struct pm_
                    path);
 }
 
+/* The penalties of the trial are those of its proposal unless the surfaces were reconstructed. */
+static enum pm_status compare_surfaces(struct trial *t, struct pm_err *err)
+{
+    const struct pm_surfaces *a = &t->previous.trial, *b = &t->surfaces;
+
+    memcpy(t->penalty, t->previous.trial_penalty, sizeof t->penalty);
+    memcpy(t->worst, t->previous.trial_worst, sizeof t->worst);
+    t->remeshed = a->ns != b->ns;
+    for (ptrdiff_t k = 0; k < a->ns && !t->remeshed; k++)
+        t->remeshed =
+            a->s[k].n != b->s[k].n ||
+            memcmp(a->s[k].phi, b->s[k].phi, (size_t)(3 * b->s[k].n) * sizeof *b->s[k].phi) != 0;
+    return t->remeshed ? trstep_measure(b, t->penalty, t->worst, err) : PM_OK;
+}
+
 static enum pm_status load_trial(const struct trstep_opts *opts, char *const *paths,
                                  struct trial *t, struct pm_err *err)
 {
@@ -51,8 +65,9 @@ static enum pm_status load_trial(const struct trstep_opts *opts, char *const *pa
             PM_TRY(pm_fail(err, PM_INPUT, "cannot use '%s': its verdict is '%s', expected continue",
                            opts->previous, t->previous.verdict));
         t->before = &t->previous;
+        PM_TRY(compare_surfaces(t, err));
     }
-    trust_judge(t->before, &t->work, &t->judgement);
+    trust_judge(t->before, &t->work, t->penalty, t->remeshed, &t->judgement);
     if (t->before == NULL && !t->judgement.accepted)
         PM_TRY(pm_fail(err, PM_NUMERIC, "the first design failed: %s", t->judgement.reason));
     if (t->before == NULL && !(t->work.value > 0))
@@ -119,11 +134,8 @@ static enum pm_status set_base(const struct trial *t, char *const *sens, int nse
     s->value = t->judgement.accepted ? t->work.value : t->previous.value;
     s->radius =
         t->before != NULL ? trust_radius(t->before, &t->judgement) : t->surfaces.pcase.radius;
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 2; k++)
         s->weight[k] = t->before != NULL ? t->before->weight[k] : 0;
-        if (t->before != NULL && t->judgement.accepted && t->before->trial_worst[k] > ALLOWED)
-            s->weight[k] *= GROWTH;
-    }
 done:
     return status;
 }
@@ -140,14 +152,15 @@ static enum pm_status add_row(const struct trial *t, struct pm_step *s, struct p
     PM_TRY(PM_NEW(s->trials, n + 1, err));
     if (b != NULL) {
         memcpy(s->trials, b->trials, (size_t)n * sizeof *b->trials);
-        row.merit = trust_merit(row.measure, b->weight, b->trial_penalty);
+        row.merit = trust_merit(row.measure, b->weight, t->penalty);
         row.predicted = trust_merit(b->value + b->gain, b->weight, b->trial_penalty) -
                         trust_merit(b->value, b->weight, b->penalty);
         row.ratio = t->judgement.ratio;
         row.radius = b->radius;
         row.rms_step = b->rms_step;
-        row.worst_curvature = b->trial_worst[0];
-        row.worst_wall = b->trial_worst[1];
+        row.remeshed = t->remeshed;
+        row.worst_curvature = t->worst[0];
+        row.worst_wall = t->worst[1];
     } else {
         row.radius = s->radius;
     }

@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
+static const double REBUILT = 0.005;
 enum { WINDOW = 5 }; /* accepted trials of the convergence test (paper) */
 
 double trust_merit(double value, const double weight[2], const double penalty[2])
@@ -10,7 +11,8 @@ double trust_merit(double value, const double weight[2], const double penalty[2]
     return value - weight[0] * penalty[0] - weight[1] * penalty[1];
 }
 
-void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j)
+void trust_judge(const struct pm_step *previous, const struct pm_work *work,
+                 const double penalty[2], int remeshed, struct judgement *j)
 {
     *j = (struct judgement){.accepted = 0};
     if (work->failure[0] != '\0') {
@@ -22,12 +24,16 @@ void trust_judge(const struct pm_step *previous, const struct pm_work *work, str
         return;
     }
     const double before = trust_merit(previous->value, previous->weight, previous->penalty);
-    const double after = trust_merit(work->value, previous->weight, previous->trial_penalty);
+    const double after = trust_merit(work->value, previous->weight, penalty);
     const double promised =
         trust_merit(previous->value + previous->gain, previous->weight, previous->trial_penalty) -
         before;
     j->ratio = promised > 0 ? (after - before) / promised : 0;
-    if (!(work->value > previous->value))
+    const int rose = work->value > previous->value || previous->gain < 0;
+    if (remeshed && !(rose && j->ratio >= 0.1) &&
+        work->value > previous->value - REBUILT * fabs(previous->value))
+        j->accepted = j->excused = 1;
+    else if (!rose)
         snprintf(j->reason, sizeof j->reason, "the measure fell by %.3g %%",
                  100 * (1 - work->value / previous->value));
     else if (!(j->ratio >= 0.1))
@@ -44,6 +50,8 @@ double trust_radius(const struct pm_step *previous, const struct judgement *j)
         fmax(previous->rms_step / previous->radius, previous->max_step / (2 * previous->radius));
     if (!j->accepted)
         return previous->radius / 3;
+    if (j->excused)
+        return previous->radius;
     if (j->ratio < 0.3)
         return previous->radius / 1.5;
     if (j->ratio > 0.75 && bound > 0.95)
