@@ -556,6 +556,15 @@ done:
     return status;
 }
 
+enum pm_status pm_h5_get_attribute(struct pm_h5 *f, const char *name, char **text,
+                                   struct pm_err *err)
+{
+    *text = read_text_attribute(f->id, name, err);
+    if (*text == NULL && err->status == PM_OK)
+        pm_fail(err, PM_INPUT, "cannot use '%s': no attribute '%s'", f->path, name);
+    return *text != NULL ? PM_OK : err->status;
+}
+
 /* VTKHDF */
 
 enum pm_status pm_h5_link(struct pm_h5 *f, const char *target, const char *name, struct pm_err *err)

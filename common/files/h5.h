@@ -53,6 +53,9 @@ enum pm_status pm_h5_put_text(struct pm_h5 *f, const char *name, const char *v, 
 enum pm_status pm_h5_get_double(struct pm_h5 *f, const char *name, double *v, struct pm_err *err);
 enum pm_status pm_h5_get_int(struct pm_h5 *f, const char *name, int64_t *v, struct pm_err *err);
 enum pm_status pm_h5_get_text(struct pm_h5 *f, const char *name, char **v, struct pm_err *err);
+/* A copy of a root attribute (pm_free); PM_INPUT where there is none. */
+enum pm_status pm_h5_get_attribute(struct pm_h5 *f, const char *name, char **text,
+                                   struct pm_err *err);
 /* Soft link inside the file, e.g. /VTKHDF/Points -> /mesh/x. */
 enum pm_status pm_h5_link(struct pm_h5 *f, const char *target, const char *name,
                           struct pm_err *err);

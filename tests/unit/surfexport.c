@@ -48,7 +48,7 @@ static void test_ears(void)
     n = star(uv, n, OUTER, 0, 0, 10, 0.8, 1);
     n = star(uv, n, HOLE, -3, 1, 2, 0.5, -1);
     n = star(uv, n, HOLE, 3, 1, 2, 0.5, -1);
-    n = star(uv, n, HOLE, 0, -4, 2, 0.5, -1);
+    star(uv, n, HOLE, 0, -4, 2, 0.5, -1);
     for (int32_t i = 0; i < N; i++)
         id[i] = i;
     const struct ears_loop loop[] = {
