@@ -10,14 +10,22 @@
 
 enum { PM_MAX_CHAMBERS = 8, PM_MAX_OPS = 12 };
 
-enum pm_shape { PM_SHAPE_SPHERE, PM_SHAPE_ELLIPSOID, PM_SHAPE_CAPSULE, PM_SHAPE_BELLOWS };
-enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE };
+/* FILE: from a closed triangle mesh that surfgen is given */
+enum pm_shape {
+    PM_SHAPE_SPHERE,
+    PM_SHAPE_ELLIPSOID,
+    PM_SHAPE_CAPSULE,
+    PM_SHAPE_BELLOWS,
+    PM_SHAPE_FILE
+};
+enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE, PM_BODY_FILE };
 enum pm_domain { PM_DOMAIN_NONE, PM_DOMAIN_CYLINDER, PM_DOMAIN_BOX };
 enum pm_form { PM_FORM_BOUNDARY = 0, PM_FORM_VOLUME = 1 };
 
 /* [chamberN]: a shape of revolution about a line parallel to z through `center`, its cross-sections
  * made ellipses, turned and twisted: x = center + R(turn + twist z/length) (section[0] r cos t,
- * section[1] r sin t, z), R from the direction out of the z axis (+x where center lies on it). */
+ * section[1] r sin t, z), R from the direction out of the z axis (+x where center lies on it). Or
+ * FILE: `center` lies inside and tells chambers apart, all lengths but spacing are 0. */
 struct pm_chamber {
     enum pm_shape shape;
     double center[3];  /* [mm] */

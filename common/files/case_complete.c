@@ -113,25 +113,27 @@ static enum pm_status complete_body(struct pm_case_raw *raw, const char *name, s
     c->body = PM_BODY_ENVELOPE;
     if (strcmp(raw->body, "cylinder") == 0)
         c->body = PM_BODY_CYLINDER;
+    else if (strcmp(raw->body, "file") == 0)
+        c->body = PM_BODY_FILE;
     else if (raw->body[0] != '\0' && strcmp(raw->body, "envelope") != 0)
-        return bad_word(name, "shape", raw->body, "envelope or cylinder", err);
+        return bad_word(name, "shape", raw->body, "envelope, cylinder or file", err);
     if (isnan(c->height))
         return missing(name, "body", "height", err);
     if (c->body == PM_BODY_CYLINDER && isnan(c->body_radius))
         return missing(name, "body", "radius", err);
     if (c->body == PM_BODY_ENVELOPE && isnan(c->wall))
         return missing(name, "body", "wall", err);
-    if (c->body == PM_BODY_CYLINDER && (!isnan(c->wall) || !isnan(c->web)))
+    if (c->body != PM_BODY_ENVELOPE && (!isnan(c->wall) || !isnan(c->web)))
         return pm_fail(err, PM_INPUT,
                        "cannot use '%s': keys 'wall' and 'web' belong to shape = envelope", name);
-    if (c->body == PM_BODY_ENVELOPE && !isnan(c->body_radius))
+    if (c->body != PM_BODY_CYLINDER && !isnan(c->body_radius))
         return pm_fail(err, PM_INPUT,
                        "cannot use '%s': key 'radius' in section '[body]' belongs to shape = "
                        "cylinder",
                        name);
-    if (c->body == PM_BODY_CYLINDER)
+    if (c->body != PM_BODY_ENVELOPE)
         c->wall = c->web = 0;
-    else
+    if (c->body != PM_BODY_CYLINDER)
         c->body_radius = 0;
     if (isnan(c->web))
         c->web = 2 * c->wall;
@@ -166,28 +168,20 @@ static enum pm_status complete_section(struct pm_chamber *c, int r, const char *
     return PM_OK;
 }
 
-static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const char *name,
-                                       struct pm_err *err)
+/* The keys that the shape of chamber r takes are there, no others. */
+static enum pm_status check_keys(const struct pm_chamber_raw *raw, const char *section,
+                                 const char *name, struct pm_err *err)
 {
-    static const char *const shapes[] = {"sphere", "ellipsoid", "capsule", "bellows"};
-    struct pm_chamber *c = &raw->c;
-    char section[16] = {'c', 'h', 'a', 'm', 'b', 'e', 'r', (char)('1' + r), '\0'};
-    int shape = 0;
-    while (shape < 4 && strcmp(shapes[shape], raw->shape) != 0)
-        shape++;
-    if (raw->shape[0] == '\0')
-        return missing(name, section, "shape", err);
-    if (shape == 4)
-        return bad_word(name, "shape", raw->shape, "sphere, ellipsoid, capsule or bellows", err);
-    c->shape = (enum pm_shape)shape;
+    const struct pm_chamber *c = &raw->c;
     int wave = c->shape == PM_SHAPE_BELLOWS, sphere = c->shape == PM_SHAPE_SPHERE;
+    int file = c->shape == PM_SHAPE_FILE;
     const struct {
         const char *key;
         double value;
         int wanted;
     } use[] = {{"center", c->center[0], 1},
-               {"radius", c->radius, 1},
-               {"length", c->length, !sphere},
+               {"radius", c->radius, !file},
+               {"length", c->length, !sphere && !file},
                {"amplitude", c->amplitude, wave},
                {"pitch", c->pitch, wave}};
     for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
@@ -199,11 +193,41 @@ static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const 
                            "= %s",
                            name, use[i].key, section, raw->shape);
     }
+    if (file && !(isnan(c->section[0]) && isnan(c->turn) && isnan(c->twist)))
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': keys 'section', 'turn' and 'twist' in section '[%s]' are "
+                       "none of shape = file",
+                       name, section);
+    return PM_OK;
+}
+
+static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const char *name,
+                                       struct pm_err *err)
+{
+    static const char *const shapes[] = {"sphere", "ellipsoid", "capsule", "bellows", "file"};
+    struct pm_chamber *c = &raw->c;
+    char section[16] = {'c', 'h', 'a', 'm', 'b', 'e', 'r', (char)('1' + r), '\0'};
+    int shape = 0;
+    while (shape < 5 && strcmp(shapes[shape], raw->shape) != 0)
+        shape++;
+    if (raw->shape[0] == '\0')
+        return missing(name, section, "shape", err);
+    if (shape == 5)
+        return bad_word(name, "shape", raw->shape, "sphere, ellipsoid, capsule, bellows or file",
+                        err);
+    c->shape = (enum pm_shape)shape;
+    enum pm_status status = check_keys(raw, section, name, err);
+    if (status != PM_OK)
+        return status;
+    int wave = c->shape == PM_SHAPE_BELLOWS, sphere = c->shape == PM_SHAPE_SPHERE;
+    int file = c->shape == PM_SHAPE_FILE;
     if (sphere)
         c->length = 2 * c->radius;
     if (!wave)
         c->amplitude = c->pitch = 0;
-    if (c->amplitude >= c->radius)
+    if (file)
+        c->radius = c->length = 0;
+    if (!file && c->amplitude >= c->radius)
         return pm_fail(err, PM_INPUT,
                        "cannot use '%s': amplitude of chamber %d is %g, expected less than "
                        "its radius %g",
@@ -216,7 +240,7 @@ static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const 
     /* At least 14 control points around and 6 along a wave resolve the surface to a few hundredths
        of a millimetre. */
     if (isnan(c->spacing))
-        c->spacing = fmin(2.5, 2 * PI * c->radius / 14);
+        c->spacing = file ? 2.5 : fmin(2.5, 2 * PI * c->radius / 14);
     if (wave && isnan(raw->c.spacing))
         c->spacing = fmin(c->spacing, c->pitch / 6);
     return complete_section(c, r, name, err);
@@ -248,6 +272,13 @@ static enum pm_status check_chambers(const struct pm_case *c, const char *name, 
         const struct pm_chamber *k = &c->chamber[r];
         double low = k->center[2] - k->length / 2, high = k->center[2] + k->length / 2;
         double reach = hypot(k->center[0], k->center[1]) + outer_radius(k);
+        if (k->shape == PM_SHAPE_FILE && c->body == PM_BODY_ENVELOPE)
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': chamber %td comes from a file, expected a body that "
+                           "is no envelope",
+                           name, r + 1);
+        if (k->shape == PM_SHAPE_FILE) /* its surface says where it is */
+            continue;
         if (low < c->cap_min - slack || high > c->height - c->cap_min + slack)
             return pm_fail(err, PM_INPUT,
                            "cannot use '%s': chamber %td reaches from z = %g to %g, expected "
@@ -262,6 +293,8 @@ static enum pm_status check_chambers(const struct pm_case *c, const char *name, 
             const struct pm_chamber *o = &c->chamber[s];
             double gap = hypot(k->center[0] - o->center[0], k->center[1] - o->center[1]) -
                          outer_radius(k) - outer_radius(o);
+            if (o->shape == PM_SHAPE_FILE)
+                continue;
             double gap_z = fabs(k->center[2] - o->center[2]) - (k->length + o->length) / 2;
             if (gap <= 0 && gap_z <= 0)
                 return pm_fail(err, PM_INPUT,

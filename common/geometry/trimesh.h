@@ -41,6 +41,10 @@ enum pm_status pm_trimesh_check(const struct pm_trimesh *m, const struct pm_star
  * `tolerance` [mm]; PM_INPUT naming the first node without one. */
 enum pm_status pm_trimesh_mirror(const struct pm_trimesh *m, int axis, double at, double tolerance,
                                  int32_t *image, struct pm_err *err);
+/* The same surface with no edge longer than `longest` [mm]: edges are halved, triangles cut into
+ * two, three or four, as often as it takes. PM_INPUT where that takes more than 2e6 nodes. */
+enum pm_status pm_trimesh_refine(const struct pm_trimesh *m, double longest, struct pm_trimesh *out,
+                                 struct pm_err *err);
 /* Lowest and highest coordinates. */
 void pm_trimesh_box(const struct pm_trimesh *m, double low[3], double high[3]);
 

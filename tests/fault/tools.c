@@ -29,7 +29,7 @@ struct attempt {
 
 static enum pm_status surfgen(const struct pm_common *c, struct pm_err *err)
 {
-    return surfgen_run(c, err);
+    return surfgen_run(&(const struct surfgen_files){0}, c, err);
 }
 
 static enum pm_status surfremesh(const struct pm_common *c, struct pm_err *err)

@@ -26,7 +26,7 @@ static void triangulate(struct pm_surface *s)
         }
 }
 
-static void place(const struct pm_case *c, const struct pm_outline *o, struct pm_surface *s)
+static void place(struct pm_surface *s)
 {
     for (ptrdiff_t i = 0; i < s->n; i++) {
         ptrdiff_t b = i / s->nu;
@@ -38,14 +38,12 @@ static void place(const struct pm_case *c, const struct pm_outline *o, struct pm
         s->Phi[3 * i] = cos(t);
         s->Phi[3 * i + 1] = sin(t);
         s->Phi[3 * i + 2] = v;
-        pm_outline_point(o, (double)(i % s->nu) / (double)s->nu, c->height * v, &s->phi[3 * i]);
         f[0] = f[1] = b > 0 && b + 1 < s->nv;
         f[2] = b > 1 && b + 2 < s->nv;
     }
 }
 
-enum pm_status pm_body_seed(const struct pm_case *c, const struct pm_outline *o,
-                            struct pm_surface *s, struct pm_err *err)
+enum pm_status pm_body_grid(const struct pm_case *c, struct pm_surface *s, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
 
@@ -56,8 +54,19 @@ enum pm_status pm_body_seed(const struct pm_case *c, const struct pm_outline *o,
     PM_TRY(PM_NEW(s->Phi, 3 * s->n, err));
     PM_TRY(PM_NEW(s->d0, s->n, err));
     PM_TRY(PM_NEW(s->tri, 6 * s->nu * (s->nv - 1), err));
-    place(c, o, s);
+    place(s);
     triangulate(s);
 done:
+    return status;
+}
+
+enum pm_status pm_body_seed(const struct pm_case *c, const struct pm_outline *o,
+                            struct pm_surface *s, struct pm_err *err)
+{
+    enum pm_status status = pm_body_grid(c, s, err);
+
+    for (ptrdiff_t i = 0; status == PM_OK && i < s->n; i++)
+        pm_outline_point(o, (double)(i % s->nu) / (double)s->nu, c->height * s->Phi[3 * i + 2],
+                         &s->phi[3 * i]);
     return status;
 }

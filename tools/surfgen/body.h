@@ -5,6 +5,8 @@
 #include "common/files/surfaces.h"
 #include "tools/surfgen/outline.h"
 
+/* nu x nv control points without places: Phi, free, triangulation. */
+enum pm_status pm_body_grid(const struct pm_case *c, struct pm_surface *s, struct pm_err *err);
 /* nu x nv control points on the outlines (unfitted), v linear in z, rims in z = 0 and z = H. Fixed:
  * the rim rows, and z of the rows next to them. */
 enum pm_status pm_body_seed(const struct pm_case *c, const struct pm_outline *o,

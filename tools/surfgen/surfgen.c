@@ -11,6 +11,7 @@
 #include "common/geometry/symmetry.h"
 #include "tools/surfgen/body.h"
 #include "tools/surfgen/chamber.h"
+#include "tools/surfgen/files.h"
 
 /* Shares of the spacing: a shape that its control points miss by more is doubtful, or not it. */
 static const double WARNED = 0.1, REFUSED = 0.5;
@@ -18,6 +19,7 @@ static const double WARNED = 0.1, REFUSED = 0.5;
 /* What the surfaces are made from. */
 struct plan {
     const struct pm_case *c;
+    const struct surfgen_files *files;
     struct pm_surfgen_report *fit;
     struct pm_outline *outline;
     struct pm_profile profile[PM_MAX_CHAMBERS];
@@ -33,6 +35,24 @@ static ptrdiff_t ring_multiple(const struct pm_symmetry *y, ptrdiff_t k)
     return 2;
 }
 
+/* Surface k from its file: fitted already. */
+static enum pm_status give(const struct plan *p, ptrdiff_t k, struct pm_surface *s,
+                           struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_misfit misfit;
+
+    PM_TRY(pm_files_surface(p->c, p->files, k, s, &misfit, err));
+    p->fit->mean[k] = misfit.mean;
+    p->fit->max[k] = misfit.max;
+    pm_log(1,
+           "surface %td: %td control points, distance from the wanted surface mean %.4f max %.4f "
+           "mm at (%.4g, %.4g, %.4g)",
+           k, s->n, misfit.mean, misfit.max, misfit.at[0], misfit.at[1], misfit.at[2]);
+done:
+    return status;
+}
+
 /* Surface k + 1: the image of an earlier chamber where there is one. */
 static enum pm_status seed_chamber(const struct plan *p, ptrdiff_t k, struct pm_surfaces *s,
                                    struct pm_err *err)
@@ -42,6 +62,8 @@ static enum pm_status seed_chamber(const struct plan *p, ptrdiff_t k, struct pm_
 
     if (r < k)
         return pm_symmetry_image(y, g, &s->s[r + 1], &s->s[k + 1], err);
+    if (pm_files_has(p->c, k + 1))
+        return give(p, k + 1, &s->s[k + 1], err);
     return pm_chamber_seed(&p->c->chamber[k], &p->profile[k], ring_multiple(y, k), &s->s[k + 1],
                            err);
 }
@@ -55,10 +77,15 @@ static enum pm_status seed(struct plan *p, struct pm_surfaces *s, struct pm_err 
     s->ns = 1 + c->nchambers;
     PM_TRY(PM_NEW(s->s, s->ns, err));
     PM_TRY(PM_NEW(s->offset, s->ns + 1, err));
-    PM_TRY(pm_outline_new(c, &p->outline, err));
-    PM_TRY(pm_body_seed(c, p->outline, &s->s[0], err));
+    if (pm_files_has(c, 0)) {
+        PM_TRY(give(p, 0, &s->s[0], err));
+    } else {
+        PM_TRY(pm_outline_new(c, &p->outline, err));
+        PM_TRY(pm_body_seed(c, p->outline, &s->s[0], err));
+    }
     for (ptrdiff_t k = 0; k < c->nchambers; k++) {
-        PM_TRY(pm_profile_new(&c->chamber[k], &p->profile[k], err));
+        if (!pm_files_has(c, k + 1))
+            PM_TRY(pm_profile_new(&c->chamber[k], &p->profile[k], err));
         PM_TRY(seed_chamber(p, k, s, err));
     }
     for (ptrdiff_t k = 0; k < s->ns; k++)
@@ -175,6 +202,8 @@ static enum pm_status shape(const struct plan *p, struct pm_surfaces *s, const s
         max[k] = max[r];
         return PM_OK;
     }
+    if (pm_files_has(p->c, k))
+        return PM_OK;
     PM_TRY(fit(p, s, m, k, err));
     PM_TRY(measure(p, k, f, at, &spacing, err));
     pm_log(1,
@@ -224,12 +253,22 @@ done:
 enum pm_status pm_surfgen(const struct pm_case *c, struct pm_surfaces *s,
                           struct pm_surfgen_report *report, struct pm_err *err)
 {
+    const struct surfgen_files none = {0};
+
+    return pm_surfgen_from(c, &none, s, report, err);
+}
+
+enum pm_status pm_surfgen_from(const struct pm_case *c, const struct surfgen_files *files,
+                               struct pm_surfaces *s, struct pm_surfgen_report *report,
+                               struct pm_err *err)
+{
     enum pm_status status = PM_OK;
-    struct plan p = {.c = c, .fit = report};
+    struct plan p = {.c = c, .files = files, .fit = report};
     struct pm_samples m = {0};
 
     memset(s, 0, sizeof *s);
     memset(report, 0, sizeof *report);
+    PM_TRY(pm_files_check(c, files, err));
     PM_TRY(seed(&p, s, err));
     PM_TRY(pm_samples_new(s, INFINITY, 2, &m, err));
     for (ptrdiff_t k = 0; k < s->ns; k++)
@@ -245,17 +284,25 @@ done:
     return status;
 }
 
-enum pm_status surfgen_run(const struct pm_common *common, struct pm_err *err)
+enum pm_status surfgen_run(const struct surfgen_files *files, const struct pm_common *common,
+                           struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_case c = {0};
     struct pm_surfaces s = {0};
     struct pm_surfgen_report fit;
     struct pm_h5 *f = NULL;
+    const char *extra[PM_MAX_CHAMBERS + 2] = {NULL};
+    int n = 0;
 
     PM_TRY(pm_case_load(common->operands[0], &c, err));
-    PM_TRY(pm_surfgen(&c, &s, &fit, err));
-    PM_TRY(pm_h5_create(common->output, "surface", common, NULL, &f, err));
+    PM_TRY(pm_surfgen_from(&c, files, &s, &fit, err));
+    if (files->body != NULL)
+        extra[n++] = files->body;
+    for (int k = 0; k < PM_MAX_CHAMBERS; k++)
+        if (files->chamber[k] != NULL)
+            extra[n++] = files->chamber[k];
+    PM_TRY(pm_h5_create(common->output, "surface", common, extra, &f, err));
     PM_TRY(pm_surfaces_write(f, &s, err));
     PM_TRY(pm_h5_put(f, "/fit/mean", &s.ns, fit.mean, err));
     PM_TRY(pm_h5_put(f, "/fit/max", &s.ns, fit.max, err));

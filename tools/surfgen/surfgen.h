@@ -5,8 +5,15 @@
 #include "common/files/surfaces.h"
 #include "common/geometry/check.h"
 
+/* Closed triangle meshes (STL, OBJ) for what the case says is from a file; NULL: none. */
+struct surfgen_files {
+    const char *body;
+    const char *chamber[PM_MAX_CHAMBERS];
+};
+
 /* Reads the case, writes its initial surfaces. */
-enum pm_status surfgen_run(const struct pm_common *common, struct pm_err *err);
+enum pm_status surfgen_run(const struct surfgen_files *files, const struct pm_common *common,
+                           struct pm_err *err);
 /* How well it went. */
 struct pm_surfgen_report {
     /* distance of each wanted surface from the fitted one, at points that the fit has not seen:
@@ -18,5 +25,10 @@ struct pm_surfgen_report {
  * a tenth of the spacing of control points, refuses (PM_INPUT) one above half of it. */
 enum pm_status pm_surfgen(const struct pm_case *c, struct pm_surfaces *s,
                           struct pm_surfgen_report *report, struct pm_err *err);
+/* The same of a case with files; PM_USAGE where one is missing or not asked for. The distance from
+ * a file is stated, not judged: what files hold may have sharp edges. */
+enum pm_status pm_surfgen_from(const struct pm_case *c, const struct surfgen_files *files,
+                               struct pm_surfaces *s, struct pm_surfgen_report *report,
+                               struct pm_err *err);
 
 #endif
