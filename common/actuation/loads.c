@@ -6,6 +6,7 @@
 
 #include "common/actuation/determinant.h"
 #include "common/actuation/measure.h"
+#include "common/actuation/weight.h"
 #include "common/base/memory.h"
 
 enum { MAX_POINTS = 100000 };
@@ -77,7 +78,8 @@ int pm_load_symmetry(const struct pm_case *c, ptrdiff_t g)
     const int base_kept = fabs(Q[8] - 1) < 1e-9 && fabs(t[2]) < 1e-9;
     const double perm = permutation_det(c->symmetry.chamber[g], (int)c->nchambers);
     const double space = is_pointing(c) ? pm_det(3, Q) : selected_det(Q, c->dofs, c->ndofs);
-    return base_kept && space * perm > 0.5;
+    const int even = strcmp(c->measure, "manifold") == 0 ? fabs(space) > 0.5 : space * perm > 0.5;
+    return base_kept && even && pm_weight_keeps(&c->weight, Q);
 }
 
 /* The full set, one point after the other. */
@@ -150,7 +152,7 @@ static int take_orbit(const struct pm_case *c, enum pm_form form, ptrdiff_t inde
     int size = 1;
 
     seen[index] = 1;
-    for (ptrdiff_t g = 1; g < c->symmetry.nops; g++) {
+    for (ptrdiff_t g = 1; g < c->symmetry.nops && !c->full_set; g++) {
         if (!pm_load_symmetry(c, g))
             continue;
         const int *to = c->symmetry.chamber[g];

@@ -10,7 +10,8 @@
  * A symmetry operation of the design is usable if the loaded robot keeps it (it maps the clamped
  * base z = 0 onto itself) and the integrand is even under it: det(Qh restricted to the measure's
  * DoFs) det(Pi) = +1, Qh = diag(Q, det(Q) Q), Pi its chamber permutation. An odd operation makes
- * the whole measure vanish on symmetric designs; it is left out, the remaining ones are used. */
+ * the whole measure vanish on symmetric designs; it is left out, the remaining ones are used. The
+ * manifold measure is even under all. A weight must be kept, too. c->full_set: none is used. */
 #ifndef PM_LOADS_H
 #define PM_LOADS_H
 

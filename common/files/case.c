@@ -46,9 +46,18 @@ static const struct key keys[] = {
     {"actuation", "pmin", NUMBER, ANY, AT(c.pmin), 0},
     {"actuation", "pmax", NUMBER, ANY, AT(c.pmax), 0},
     {"actuation", "points", INTEGER, POSITIVE, AT(c.points), 0},
+    {"actuation", "reduce", WORD_AT(reduce)},
     {"workspace", "measure", WORD_AT(c.measure)},
     {"workspace", "form", WORD_AT(form)},
     {"workspace", "dofs", WORD_AT(dofs)},
+    {"workspace", "lever", NUMBER, POSITIVE, AT(c.lever), 0},
+    {"workspace", "field", WORD_AT(field)},
+    {"workspace", "weight", WORD_AT(weight)},
+    {"workspace", "weight_on", WORD_AT(weight_on)},
+    {"workspace", "weight_center", NUMBERS, ANY, AT(c.weight.center), 3},
+    {"workspace", "weight_size", NUMBERS, POSITIVE, AT(c.weight.size), 3},
+    {"workspace", "weight_normal", NUMBERS, ANY, AT(c.weight.normal), 3},
+    {"workspace", "weight_width", NUMBER, POSITIVE, AT(c.weight.width), 0},
     {"mesh", "size", NUMBER, POSITIVE, AT(c.mesh_size), 0},
     {"constraints", "wall_min", NUMBER, POSITIVE, AT(c.wall_min), 0},
     {"constraints", "curvature_max", NUMBER, POSITIVE, AT(c.curvature_max), 0},
@@ -159,7 +168,9 @@ static int take_numbers(struct parser *p, const struct key *k, const char *value
         end += strspn(end, " \t");
         if (end == at || !in_range(v[i], k->range) || *end != (i + 1 < k->size ? ',' : '\0'))
             return refuse(p, k, value,
-                          k->size == 3 ? "three numbers 'x, y, z'" : "two numbers > 0 'a, b'");
+                          k->size == 2           ? "two numbers > 0 'a, b'"
+                          : k->range == POSITIVE ? "three numbers > 0 'x, y, z'"
+                                                 : "three numbers 'x, y, z'");
         at = end + 1;
     }
     memcpy(target, v, k->size * sizeof v[0]);
@@ -275,6 +286,11 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .pmin = 0,
                                       .pmax = 0.12,
                                       .points = 2,
+                                      .lever = NAN,
+                                      .weight = {.center = {NAN, NAN, NAN},
+                                                 .size = {NAN, NAN, NAN},
+                                                 .normal = {NAN, NAN, NAN},
+                                                 .width = NAN},
                                       .mesh_size = 3,
                                       .wall_min = 2.5,
                                       .curvature_max = 1,
@@ -288,7 +304,11 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .tolerance = 1e-2},
                                 .group = "none",
                                 .domain = "none",
-                                .form = "boundary"};
+                                .form = "boundary",
+                                .reduce = "yes",
+                                .field = "exact",
+                                .weight = "none",
+                                .weight_on = "position"};
     for (int l = 0; l < PM_MAX_LAWS; l++)
         for (int i = 0; i < PM_MAX_LAW_PARAMETERS; i++)
             raw->parameter[l][i] = NAN;

@@ -21,6 +21,17 @@ enum pm_shape {
 enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE, PM_BODY_FILE };
 enum pm_domain { PM_DOMAIN_NONE, PM_DOMAIN_CYLINDER, PM_DOMAIN_BOX };
 enum pm_form { PM_FORM_BOUNDARY = 0, PM_FORM_VOLUME = 1 };
+enum pm_weight_kind { PM_WEIGHT_NONE, PM_WEIGHT_BOX, PM_WEIGHT_GAUSSIAN, PM_WEIGHT_HALF_SPACE };
+
+/* Weight over the workspace: [workspace] weight and its parameters (actuation/weight.h). */
+struct pm_weight {
+    enum pm_weight_kind kind;
+    int direction;    /* 0: of the position U_1..3 [mm], 1: of the pointing direction R e_z [1] */
+    double center[3]; /* c: of box and gaussian, a point on the plane of the half-space */
+    double size[3];   /* a: half-lengths of the box, standard deviations of the gaussian */
+    double normal[3]; /* n: of the half-space, into it, unit length */
+    double width;     /* of the transition of box and half-space */
+};
 
 /* [chamberN]: a shape of revolution about a line parallel to z through `center`, its cross-sections
  * made ellipses, turned and twisted: x = center + R(turn + twist z/length) (section[0] r cos t,
@@ -74,12 +85,16 @@ struct pm_case {
     struct pm_symmetry symmetry;
     /* [actuation], ratios p/mu */
     double pmin, pmax;
-    long points; /* Gauss points per axis */
+    long points;  /* Gauss points per axis */
+    int full_set; /* 1: symmetry drops no Gauss points */
     /* [workspace] */
     char measure[16]; /* 2T ... */
     enum pm_form form;
     int dofs[6]; /* 0-based rows of (U, J) that the measure uses */
     int ndofs;
+    double lever; /* manifold over translations and rotations: arc of a rotation by 1 rad [mm] */
+    int taylor;   /* 1: 3R by the field of the Taylor series, 0: by the exact one */
+    struct pm_weight weight;
     /* [mesh] */
     double mesh_size; /* wanted edge length [mm] */
     /* [constraints] */

@@ -306,68 +306,6 @@ static enum pm_status check_chambers(const struct pm_case *c, const char *name, 
     return PM_OK;
 }
 
-static const struct {
-    const char *name;
-    int chambers, ndofs, dofs[6];
-} measures[] = {
-    {"2T", 2, 2, {0, 2}},    {"3T", 3, 3, {0, 1, 2}},   {"2R", 3, 3, {3, 4, 5}},
-    {"3R", 3, 3, {3, 4, 5}}, {"1R2T", 3, 3, {0, 2, 4}}, {"3R3T", 6, 6, {0, 1, 2, 3, 4, 5}},
-};
-
-/* "1,3" to {0, 2}: distinct numbers 1..6, ascending. */
-static int parse_dofs(const char *text, int *dofs)
-{
-    int n = 0, last = 0;
-    for (const char *p = text;; p++) {
-        p += strspn(p, " ");
-        if (*p < '1' || *p > '6' || *p - '0' <= last)
-            return 0;
-        last = *p - '0';
-        dofs[n++] = last - 1;
-        p++;
-        p += strspn(p, " ");
-        if (*p == '\0')
-            return n;
-        if (*p != ',')
-            return 0;
-    }
-}
-
-static enum pm_status complete_workspace(struct pm_case_raw *raw, const char *name,
-                                         struct pm_err *err)
-{
-    struct pm_case *c = &raw->c;
-    c->form = PM_FORM_BOUNDARY;
-    if (strcmp(raw->form, "volume") == 0)
-        c->form = PM_FORM_VOLUME;
-    else if (strcmp(raw->form, "boundary") != 0)
-        return bad_word(name, "form", raw->form, "boundary or volume", err);
-    if (!(c->pmax > c->pmin))
-        return pm_fail(err, PM_INPUT, "cannot use '%s': pmax is %g, expected more than pmin = %g",
-                       name, c->pmax, c->pmin);
-    if (c->points > 16)
-        return pm_fail(err, PM_INPUT, "cannot use '%s': points is %ld, expected at most 16", name,
-                       c->points);
-    if (c->measure[0] == '\0')
-        return PM_OK; /* no workspace: single equilibria only */
-    size_t m = 0, count = sizeof measures / sizeof measures[0];
-    while (m < count && strcmp(measures[m].name, c->measure) != 0)
-        m++;
-    if (m == count)
-        return bad_word(name, "measure", c->measure, "2T, 3T, 2R, 3R, 1R2T or 3R3T", err);
-    c->ndofs = measures[m].ndofs;
-    memcpy(c->dofs, measures[m].dofs, sizeof c->dofs);
-    if (raw->dofs[0] != '\0' && parse_dofs(raw->dofs, c->dofs) != c->ndofs)
-        return pm_fail(err, PM_INPUT,
-                       "cannot use '%s': key 'dofs' is '%s', expected %d ascending numbers "
-                       "out of 1..6",
-                       name, raw->dofs, c->ndofs);
-    if (c->nchambers > 0 && c->nchambers != measures[m].chambers)
-        return pm_fail(err, PM_INPUT, "cannot use '%s': measure %s with %td chambers, expected %d",
-                       name, c->measure, c->nchambers, measures[m].chambers);
-    return PM_OK;
-}
-
 /* Keys of another domain are refused; those not used become 0. */
 static enum pm_status complete_domain(struct pm_case_raw *raw, const char *name, struct pm_err *err)
 {
@@ -417,7 +355,7 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
     PM_TRY(complete_chambers(raw, name, err));
     PM_TRY(check_chambers(c, name, err));
     PM_TRY(complete_domain(raw, name, err));
-    PM_TRY(complete_workspace(raw, name, err));
+    PM_TRY(pm_case_workspace(raw, name, err));
     if (c->radius > c->radius_max)
         PM_TRY(pm_fail(err, PM_INPUT,
                        "cannot use '%s': radius in section '[optimisation]' is %g, expected "

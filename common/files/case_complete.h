@@ -14,6 +14,7 @@ struct pm_case_raw {
     struct pm_case c; /* NAN where not given */
     char body[16], group[64], form[16], dofs[32];
     char preset[32], domain[16];
+    char reduce[8], field[16], weight[16], weight_on[16];
     /* Parameters of the l-th law of material.c; NAN where not given. */
     double parameter[PM_MAX_LAWS][PM_MAX_LAW_PARAMETERS];
     struct pm_chamber_raw chamber[PM_MAX_CHAMBERS];
@@ -28,5 +29,8 @@ enum pm_status pm_case_group(const char *group, double H, struct pm_symmetry *s,
                              struct pm_err *err);
 /* Appends the images of the chambers and fills the permutations. */
 enum pm_status pm_case_images(struct pm_case *c, const char *name, struct pm_err *err);
+
+/* Sections [actuation] and [workspace], after the chambers (case_workspace.c). */
+enum pm_status pm_case_workspace(struct pm_case_raw *raw, const char *name, struct pm_err *err);
 
 #endif

@@ -112,7 +112,7 @@ static const struct pm_item table[] = {
     {"path", "/path/displacement", D, "np nn 3", "mm", "nodal displacement", 1},
 
     {"work", "/measure/value", D, "", "see /measure/unit", "workspace measure", 1},
-    {"work", "/measure/name", TEXT, "", "1", "2T 3T 2R 3R 1R2T 3R3T", 1},
+    {"work", "/measure/name", TEXT, "", "1", "2T 3T 2R 3R 1R2T 3R3T manifold", 1},
     {"work", "/measure/unit", TEXT, "", "1", "unit of the value", 1},
     {"work", "/measure/form", I64, "", "1", "0 boundary form, 1 volume form", 1},
     {"work", "/measure/orientation", D, "", "1", "sign sigma, frozen at the first design", 1},

@@ -11,8 +11,9 @@ static void check_reference(const cJSON *json)
 {
     static const struct {
         const char *name, *measure;
-    } known[] = {{"3T", "3T"}, {"3R_exact", "3R"}, {"1R2T", "1R2T"},
-                 {"2T", "2T"}, {"2R", "2R"},       {"6D", "3R3T"}};
+        int taylor;
+    } known[] = {{"3T", "3T", 0}, {"3R_exact", "3R", 0}, {"3R_eq16", "3R", 1}, {"1R2T", "1R2T", 0},
+                 {"2T", "2T", 0}, {"2R", "2R", 0},       {"6D", "3R3T", 0}};
     double U[6], J3[18], J6[36], J2[12];
     const cJSON *item;
     int index = 0;
@@ -34,7 +35,8 @@ static void check_reference(const cJSON *json)
             k++;
         reference_numbers(item, "lam", &lambda, 1);
         if (k == sizeof known / sizeof *known || lambda != 0)
-            continue; /* other fields of the paper, not used */
+            continue; /* other fields, not used */
+        c.taylor = known[k].taylor;
         snprintf(c.measure, sizeof c.measure, "%s", known[k].measure);
         if (pm_measure_select(&c, known[k].measure, &err) != PM_OK)
             ok(0, "%s", err.text);
@@ -67,22 +69,18 @@ static void check_reference(const cJSON *json)
     }
 }
 
-/* Fourth-order central differences over all entries of (U, J). */
-static void check_differences(const char *measure, enum pm_form form, double scale)
+/* Fourth-order central differences over all entries of (U, J) of the case. */
+static void check_case(const struct pm_case *c, const char *text, enum pm_form form, double scale)
 {
-    struct pm_case c = {0};
-    double q[42], dq[42], want[42], w;
-    char label[96];
+    double q[42] = {0}, dq[42], want[42], w;
+    char label[128];
+    const int n = (int)c->nchambers;
 
-    if (pm_measure_select(&c, measure, &err) != PM_OK)
-        ok(0, "%s", err.text);
-    const int n = c.ndofs;
-    c.nchambers = n;
     for (int i = 0; i < 6 + 6 * n; i++)
         q[i] = scale * sin(1 + 0.7 * i * i);
     const struct pm_load load = {.face = form == PM_FORM_VOLUME ? -1 : n - 1,
                                  .sign = form == PM_FORM_VOLUME ? 1 : -1};
-    ok(pm_measure_point(&c, form, &load, q, q + 6, &w, dq, dq + 6, &err) == PM_OK, "%s", measure);
+    ok(pm_measure_point(c, form, &load, q, q + 6, &w, dq, dq + 6, &err) == PM_OK, "%s", text);
     for (int i = 0; i < 6 + 6 * n; i++) {
         const double h = 1e-3 * scale, old = q[i];
         double f[4];
@@ -90,14 +88,114 @@ static void check_differences(const char *measure, enum pm_form form, double sca
             double a[6], b[36];
             q[i] = old + h * (k < 2 ? k - 2 : k - 1);
             f[k] = NAN;
-            pm_measure_point(&c, form, &load, q, q + 6, &f[k], a, b, &err);
+            pm_measure_point(c, form, &load, q, q + 6, &f[k], a, b, &err);
         }
         q[i] = old;
         want[i] = (f[0] - 8 * f[1] + 8 * f[2] - f[3]) / (12 * h);
     }
-    snprintf(label, sizeof label, "%s, %s form, scale %g: derivatives", measure, pm_form_name(form),
+    snprintf(label, sizeof label, "%s, %s form, scale %g: derivatives", text, pm_form_name(form),
              scale);
     near_array(label, dq, want, 6 + 6 * n, 1e-9); /* h^4 and rounding/h, relative to the largest */
+}
+
+static void check_differences(const char *measure, enum pm_form form, double scale)
+{
+    struct pm_case c = {0};
+    if (pm_measure_select(&c, measure, &err) != PM_OK)
+        ok(0, "%s", err.text);
+    c.nchambers = c.ndofs;
+    check_case(&c, measure, form, scale);
+}
+
+/* Every weight on position and direction with every measure that takes one; widths of the order of
+ * the poses. */
+static void check_weights(void)
+{
+    static const char *const measures[] = {"2T", "3T", "1R2T", "3R", "3R3T", "manifold"};
+    static const char *const kinds[] = {"none", "box", "gaussian", "half-space"};
+    for (int m = 0; m < 6; m++)
+        for (int k = 1; k <= PM_WEIGHT_HALF_SPACE; k++)
+            for (int direction = 0; direction < 2; direction++) {
+                struct pm_case c = {.ndofs = 3, .dofs = {0, 2, 4}, .lever = 20};
+                char label[64];
+                if (pm_measure_select(&c, measures[m], &err) != PM_OK)
+                    ok(0, "%s", err.text);
+                c.nchambers = m == 5 ? 2 : c.ndofs;
+                c.weight = (struct pm_weight){.kind = (enum pm_weight_kind)k,
+                                              .direction = direction,
+                                              .center = {0.2, -0.1, direction ? 0.9 : 0.3},
+                                              .size = {0.8, 1.1, 0.7},
+                                              .normal = {0.6, 0, 0.8},
+                                              .width = 0.5};
+                snprintf(label, sizeof label, "%s, %s on %s", measures[m], kinds[k],
+                         direction ? "direction" : "position");
+                check_case(&c, label, PM_FORM_VOLUME, 1.1);
+            }
+}
+
+/* The surface that U = (p1, p2, p1^2) makes, (1 + 4 p1^2)^(1/2) dp1 dp2; and of one chamber the
+ * length of a helix with radius 3 and lever 20. */
+static void check_manifold(void)
+{
+    struct pm_case c = {.nchambers = 2, .ndofs = 3, .dofs = {0, 1, 2}, .measure = "manifold"};
+    const struct pm_load load = {.face = -1, .sign = 1};
+    double U[6] = {0}, J[12] = {1, 0, 0, 1, 0.6, 0}, w, a[6], b[12];
+
+    ok(pm_measure_point(&c, PM_FORM_VOLUME, &load, U, J, &w, a, b, &err) == PM_OK, "manifold");
+    near_rel("area of a parabolic cylinder", w, sqrt(1.36), 1e-15);
+    ok(strcmp(pm_measure_unit(&c), "mm2") == 0, "unit of two translations by two chambers: %s",
+       pm_measure_unit(&c));
+    check_case(&c, "manifold, 2 chambers, 3 DoFs", PM_FORM_VOLUME, 1.1);
+
+    c = (struct pm_case){
+        .nchambers = 1, .ndofs = 4, .dofs = {0, 1, 2, 5}, .lever = 20, .measure = "manifold"};
+    const double helix[6] = {0, 3, 0.5, 0, 0, 1};
+    ok(pm_measure_point(&c, PM_FORM_VOLUME, &load, U, helix, &w, a, b, &err) == PM_OK, "curve");
+    near_rel("speed along a helix with its turn", w, sqrt(9 + 0.25 + 400), 1e-15);
+    check_case(&c, "manifold, 1 chamber, 4 DoFs", PM_FORM_VOLUME, 1.1);
+
+    err = (struct pm_err){0};
+    const double parallel[12] = {1, 2, 1, 2, 1, 2};
+    c = (struct pm_case){.nchambers = 2, .ndofs = 3, .dofs = {0, 1, 2}, .measure = "manifold"};
+    ok(pm_measure_point(&c, PM_FORM_VOLUME, &load, U, parallel, &w, a, b, &err) == PM_NUMERIC,
+       "dependent columns are refused: %s", err.text);
+}
+
+static void check_refusals(void)
+{
+    static const struct {
+        const char *what;
+        enum pm_form form;
+        struct pm_case c;
+    } bad[] = {
+        {"2R: volume form", PM_FORM_VOLUME, {.measure = "2R", .nchambers = 3}},
+        {"2R: chambers", PM_FORM_BOUNDARY, {.measure = "2R", .nchambers = 2}},
+        {"3R: taylor by volume", PM_FORM_VOLUME, {.measure = "3R", .nchambers = 3, .taylor = 1}},
+        {"3T: taylor", PM_FORM_BOUNDARY, {.measure = "3T", .nchambers = 3, .taylor = 1}},
+        {"3T: weight by boundary",
+         PM_FORM_BOUNDARY,
+         {.measure = "3T", .nchambers = 3, .weight = {.kind = PM_WEIGHT_GAUSSIAN}}},
+        {"2R: weight",
+         PM_FORM_BOUNDARY,
+         {.measure = "2R", .nchambers = 3, .weight = {.kind = PM_WEIGHT_GAUSSIAN}}},
+        {"manifold: boundary",
+         PM_FORM_BOUNDARY,
+         {.measure = "manifold", .nchambers = 1, .ndofs = 1}},
+        {"manifold: more chambers than DoFs",
+         PM_FORM_VOLUME,
+         {.measure = "manifold", .nchambers = 3, .ndofs = 2, .dofs = {0, 2}}},
+        {"manifold: no lever",
+         PM_FORM_VOLUME,
+         {.measure = "manifold", .nchambers = 1, .ndofs = 2, .dofs = {0, 4}}},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        struct pm_case c = bad[i].c;
+        err = (struct pm_err){0};
+        if (pm_measure_select(&c, bad[i].c.measure, &err) != PM_OK)
+            ok(0, "%s", err.text);
+        ok(pm_measure_check(&c, bad[i].form, &err) == PM_INPUT, "refused, %s: %s", bad[i].what,
+           err.text);
+    }
 }
 
 int main(void)
@@ -119,12 +217,12 @@ int main(void)
     ok(pm_measure_select(&c, "2R", &err) == PM_OK &&
            pm_measure_point(&c, PM_FORM_BOUNDARY, &load, U, J, &w, a, b, &err) == PM_NUMERIC,
        "2R refuses the pole: %s", err.text);
-    err = (struct pm_err){0};
-    ok(pm_measure_check(&c, PM_FORM_VOLUME, &err) == PM_INPUT, "2R has no volume form: %s",
-       err.text);
-    err = (struct pm_err){0};
-    c.nchambers = 2;
-    ok(pm_measure_check(&c, PM_FORM_BOUNDARY, &err) == PM_INPUT, "wrong number of chambers: %s",
-       err.text);
+    struct pm_case taylor = {.measure = "3R", .nchambers = 3, .taylor = 1};
+    if (pm_measure_select(&taylor, "3R", &err) != PM_OK)
+        ok(0, "%s", err.text);
+    check_case(&taylor, "3R, taylor", PM_FORM_BOUNDARY, 1.1);
+    check_weights();
+    check_manifold();
+    check_refusals();
     return tap_done();
 }

@@ -229,8 +229,46 @@ static void test_refusals(void)
         refused(bad[i].text, bad[i].says);
 }
 
+#define FREE "[case]\nname = t\n[material]\nmu = 1\n[workspace]\n"
+
+static void test_workspaces(void)
+{
+    static const struct {
+        const char *text, *says;
+    } bad[] = {
+        {FREE "field = best\n", "key 'field' is 'best', expected exact or taylor"},
+        {FREE "[actuation]\nreduce = 1\n", "key 'reduce' is '1', expected yes or no"},
+        {FREE "weight = cone\n", "expected none, box, gaussian or half-space"},
+        {FREE "weight = box\nweight_center = 0,0,1\nweight_size = 1,1,1\n",
+         "key 'weight_width' is missing for weight = box"},
+        {FREE "weight = gaussian\nweight_center = 0,0,1\nweight_size = 1,1,0\n",
+         "expected three numbers > 0"},
+        {FREE "weight_center = 0,0,1\n", "key 'weight_center' does not go with weight = none"},
+        {FREE "weight = half-space\nweight_center = 0,0,1\nweight_width = 1\nweight_normal = "
+              "0,0,0\n",
+         "key 'weight_normal' is 0"},
+        {FREE "measure = manifold\n", "measure manifold expects"},
+        {HEAD CHAMBER "[symmetry]\ngroup = c3\n", "with more chambers than DoFs poses repeat"},
+        {HEAD CHAMBER, "fewer chambers than DoFs have measure manifold"},
+    };
+    struct pm_case c;
+    struct pm_err err = {.status = PM_OK};
+    ok(pm_case_parse(FREE "measure = manifold\ndofs = 1,3,5\nlever = 20\nform = volume\nweight = "
+                          "half-space\nweight_on = direction\nweight_center = 0,0,0\n"
+                          "weight_normal = 0,3,4\nweight_width = 0.2\n[actuation]\nreduce = no\n",
+                     "t", &c, &err) == PM_OK,
+       "a weighted manifold %s", err.text);
+    ok(c.ndofs == 3 && c.lever == 20 && c.full_set && c.weight.kind == PM_WEIGHT_HALF_SPACE &&
+           c.weight.direction && c.weight.normal[2] == 0.8 && c.weight.size[0] == 0,
+       "its values");
+    pm_case_release(&c);
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        refused(bad[i].text, bad[i].says);
+}
+
 int main(void)
 {
+    test_workspaces();
     test_reference();
     test_groups();
     test_materials();

@@ -3,7 +3,7 @@
 #include "tools/wsint/wsint.h"
 
 static const struct pm_option OPTIONS[] = {
-    {"measure", 0, "NAME", "2T, 3T, 1R2T, 2R, 3R or 3R3T instead of the case's measure"},
+    {"measure", 0, "NAME", "2T, 3T, 1R2T, 2R, 3R, 3R3T or manifold instead of the case's measure"},
     {"form", 0, "FORM", "boundary or volume instead of the case's form"},
     {"sign-from", 0, "WORK.h5", "take the orientation of the first design from this file"},
     {"points", 0, NULL, "print the Gauss set of CASE.ini, tab separated; write nothing"},
