@@ -15,6 +15,27 @@ void pm_patch_release(struct pm_patch *p)
     *p = (struct pm_patch){0};
 }
 
+uint8_t pm_rim_plane(int32_t type, int axis)
+{
+    return (uint8_t)((type == PM_SURFACE_BSPLINE ? 4 : 1) << axis);
+}
+
+void pm_rim_constrain(int32_t type, unsigned rim, double S[3])
+{
+    const int tube = type == PM_SURFACE_BSPLINE;
+    double sum = 0;
+    if (rim == 0)
+        return;
+    if (tube && (rim & 3) != 0)
+        S[2] = (rim & 3) - 1;
+    for (int j = 0; j < (tube ? 2 : 3); j++) {
+        S[j] = rim & pm_rim_plane(type, j) ? 0 : S[j];
+        sum += S[j] * S[j];
+    }
+    for (int j = 0; j < (tube ? 2 : 3); j++)
+        S[j] /= sqrt(sum);
+}
+
 /* Largest principal curvature |k| = |H| + sqrt(H^2 - K) [model 6.2]. */
 static double curvature(const double r_a[6], const double r_ab[9], const double n[3])
 {
@@ -124,8 +145,8 @@ static enum pm_status smooth_node(struct pm_edit *m, ptrdiff_t a, struct pm_err 
 {
     enum pm_status status = PM_OK;
     double d[3], r_a[6], step[2], S0[3];
-    if (m->type == PM_SURFACE_SPHERE && (m->rim[a] & (m->rim[a] - 1)) != 0)
-        return PM_OK; /* a corner of two mirror planes */
+    if ((m->rim[a] & (m->rim[a] - 1)) != 0)
+        return PM_OK; /* a corner of two rims */
     const double before = pm_edit_worst(m, a);
     if (m->rim[a])
         target_rim(m, a, d);
@@ -143,15 +164,17 @@ static enum pm_status smooth_node(struct pm_edit *m, ptrdiff_t a, struct pm_err 
     const double det = g[0] * g[2] - g[1] * g[1];
     if (!(det > 0) || !(g[0] > 0))
         goto done;
-    const int rim = m->rim[a] && m->type == PM_SURFACE_BSPLINE;
-    step[0] = rim ? f[0] / g[0] : (g[2] * f[0] - g[1] * f[1]) / det;
-    step[1] = rim ? 0 : (g[0] * f[1] - g[1] * f[0]) / det;
+    /* the tangents of a tube are along its rims and along its mirror planes */
+    const int around = m->type == PM_SURFACE_BSPLINE && (m->rim[a] & 3) != 0;
+    const int along = m->type == PM_SURFACE_BSPLINE && m->rim[a] > 3;
+    step[0] = around ? f[0] / g[0] : along ? 0 : (g[2] * f[0] - g[1] * f[1]) / det;
+    step[1] = around ? 0 : along ? f[1] / g[2] : (g[0] * f[1] - g[1] * f[0]) / det;
     for (int i = 0; i < 3; i++)
         S0[i] = m->S[3 * a + i];
     for (int half = 0; half < 4; half++) {
         const double now_step[2] = {ldexp(step[0], -half), ldexp(step[1], -half)};
         pm_map_move(m->type, S0, now_step, m->S + 3 * a);
-        pm_edit_constrain(m, a, m->S + 3 * a);
+        pm_rim_constrain(m->type, m->rim[a], m->S + 3 * a);
         PM_TRY(pm_edit_place(m, a, err));
         const double now = pm_edit_worst(m, a);
         if (now > 0.3 || now >= before)

@@ -14,7 +14,7 @@ struct pm_remesh_opts {
     double chord;    /* edge length <= sqrt(8 chord / curvature), 0: no such bound [mm] */
     double growth;   /* largest change of the wanted length per unit length [1] */
     int sweeps;
-    int mirror[3]; /* sphere: 1: mesh only S_j >= 0; nodes on the plane S_j = 0 stay on it */
+    int mirror[3]; /* 1: mesh only S_j >= 0; nodes on the plane S_j = 0 stay on it (tube: x, y) */
 };
 
 /* A triangulated surface with parameters. */
@@ -23,8 +23,7 @@ struct pm_patch {
     double *S;    /* surface parameter                               (nn x 3) */
     double *x;    /* r(S)                                            (nn x 3) [mm] */
     double *size; /* wanted edge length                              (nn)     [mm] */
-    uint8_t *rim; /* B-spline: 1 on v = 0, 2 on v = 1; sphere: bits 1 << j of the mirror planes; 0
-                     elsewhere (nn) */
+    uint8_t *rim; /* bits: B-spline: 1 on v = 0, 2 on v = 1; pm_rim_plane; 0 elsewhere (nn) */
     int32_t *tri; /* normal out of the closed surface                (nt x 3) */
 };
 
@@ -35,6 +34,10 @@ struct pm_patch {
 enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,
                          struct pm_patch *p, struct pm_err *err);
 void pm_patch_release(struct pm_patch *p);
+/* The bit in `rim` of the mirror plane S_axis = 0. */
+uint8_t pm_rim_plane(int32_t type, int axis);
+/* Puts S back on the rims of these bits: v of a tube, mirror planes. */
+void pm_rim_constrain(int32_t type, unsigned rim, double S[3]);
 /* > 0 where the parameters a, b, c turn counter-clockwise seen from outside the reference shape. */
 double pm_parameter_orientation(int32_t type, const double a[3], const double b[3],
                                 const double c[3]);

@@ -277,23 +277,6 @@ static void cut(struct pm_edit *m, ptrdiff_t t, ptrdiff_t a, ptrdiff_t b, ptrdif
     attach(m, e, f);
 }
 
-void pm_edit_constrain(const struct pm_edit *m, ptrdiff_t a, double S[3])
-{
-    double sum = 0;
-    if (m->rim[a] == 0)
-        return;
-    if (m->type == PM_SURFACE_BSPLINE) {
-        S[2] = m->rim[a] - 1;
-        return;
-    }
-    for (int j = 0; j < 3; j++) {
-        S[j] = m->rim[a] & 1 << j ? 0 : S[j];
-        sum += S[j] * S[j];
-    }
-    for (int j = 0; j < 3; j++)
-        S[j] /= sqrt(sum);
-}
-
 enum pm_status pm_edit_split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, const double *S,
                                   int *done_it, struct pm_err *err)
 {
@@ -311,7 +294,7 @@ enum pm_status pm_edit_split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, c
     else
         pm_map_middle(m->type, m->S + 3 * a, m->S + 3 * b, m->S + 3 * e);
     m->rim[e] = (uint8_t)(n == 1 ? m->rim[a] & m->rim[b] : 0);
-    pm_edit_constrain(m, e, m->S + 3 * e);
+    pm_rim_constrain(m->type, m->rim[e], m->S + 3 * e);
     m->size[e] = wanted(m, a, b);
     m->degree[e] = 0;
     PM_TRY(pm_edit_place(m, e, err));

@@ -27,16 +27,13 @@ enum pm_status pm_edit_init(struct pm_edit *m, const struct pm_surface *s, const
 void pm_edit_release(struct pm_edit *m);
 /* Place and normal of node a from its S. */
 enum pm_status pm_edit_place(struct pm_edit *m, ptrdiff_t a, struct pm_err *err);
-/* Puts S back on the rims of node a: v of a tube, the mirror planes of a sphere. */
-void pm_edit_constrain(const struct pm_edit *m, ptrdiff_t a, double S[3]);
 /* Splits the edge (a, b) at S (NULL: its middle); *done_it = 0 where a node would get too many
  * triangles. */
 enum pm_status pm_edit_split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, const double *S,
                                   int *done_it, struct pm_err *err);
 /* Removes a triangle. */
 void pm_edit_remove(struct pm_edit *m, ptrdiff_t t);
-/* Sphere: cuts along the plane S_axis = 0 and keeps S_axis >= 0; nodes on the plane get rim bit 1
- * << axis. */
+/* Cuts along the plane S_axis = 0 and keeps S_axis >= 0; nodes on the plane get its bit of rim. */
 enum pm_status pm_edit_halve(struct pm_edit *m, int axis, struct pm_err *err);
 /* Splits the longest edge of every triangle that has one longer than 4/3 of the wanted length;
  * *count edges. */
