@@ -7,11 +7,20 @@
 #include "common/base/sparse.h"
 #include "common/mechanics/tet10.h"
 
+/* Axes with the same unknown nodes. */
+struct field {
+    struct pm_pattern pattern; /* one equation each */
+    struct pm_cholesky *factor;
+    int naxes, axis[3];
+};
+
 struct pm_extension {
     const struct pm_mesh *mesh; /* borrowed: connectivity, x_generated */
-    struct pm_pattern pattern;  /* interior nodes, one equation each */
-    struct pm_cholesky *factor;
-    double *rhs; /* 3 right-hand sides (3 x n) */
+    uint8_t *given;             /* bit i: coordinate i is given (nn) */
+    uint8_t *plane;             /* bit i: the node is on a symmetry plane across axis i (nn) */
+    struct field field[3];
+    int nfields;
+    double *rhs; /* 3 right-hand sides (3 x most unknowns) */
 };
 
 /* Element Laplace matrix on the generated mesh (10 x 10). */
@@ -30,11 +39,10 @@ static void laplace_matrix(const struct pm_mesh *m, ptrdiff_t e, double K[100])
     }
 }
 
-static enum pm_status factor_laplace(struct pm_extension *e, struct pm_err *err)
+static enum pm_status factor_laplace(const struct pm_mesh *m, struct field *f, struct pm_err *err)
 {
     enum pm_status status;
-    const struct pm_mesh *m = e->mesh;
-    const struct pm_pattern *p = &e->pattern;
+    const struct pm_pattern *p = &f->pattern;
     double *value = NULL, K[100];
     PM_TRY(PM_NEW(value, p->ptr[p->n], err));
     for (ptrdiff_t k = 0; k < m->ne; k++) {
@@ -48,8 +56,8 @@ static enum pm_status factor_laplace(struct pm_extension *e, struct pm_err *err)
     }
     int definite;
     ptrdiff_t column;
-    PM_TRY(pm_cholesky_new(p->n, p->ptr, p->row, &e->factor, err));
-    PM_TRY(pm_cholesky_factor(e->factor, value, &definite, &column, err));
+    PM_TRY(pm_cholesky_new(p->n, p->ptr, p->row, &f->factor, err));
+    PM_TRY(pm_cholesky_factor(f->factor, value, &definite, &column, err));
     if (!definite)
         status =
             pm_fail(err, PM_NUMERIC,
@@ -60,77 +68,145 @@ done:
     return status;
 }
 
+/* Which coordinates are given, and the axes that share them: those across a symmetry plane have
+ * more. */
+static enum pm_status find_given(struct pm_extension *e, struct pm_err *err)
+{
+    enum pm_status status;
+    const struct pm_mesh *m = e->mesh;
+    unsigned planes = 0;
+    int shared = -1;
+    PM_TRY(PM_NEW(e->given, m->nn, err));
+    PM_TRY(PM_NEW(e->plane, m->nn, err));
+    for (ptrdiff_t k = 0; k < 6 * m->nf; k++) {
+        const int32_t a = m->tri[k], tag = m->tri_tag[k / 6];
+        const unsigned across = tag <= PM_FACE_SYM_X ? 1u << (PM_FACE_SYM_X - tag) : 0;
+        planes |= across;
+        e->plane[a] = (uint8_t)(e->plane[a] | across);
+        e->given[a] = (uint8_t)(e->given[a] | (across ? across : 7));
+    }
+    for (int i = 0; i < 3; i++) {
+        const int own = (int)(planes >> i & 1);
+        if (own || shared < 0) {
+            if (!own)
+                shared = e->nfields;
+            e->field[e->nfields++].axis[0] = i;
+            e->field[e->nfields - 1].naxes = 1;
+        } else {
+            e->field[shared].axis[e->field[shared].naxes++] = i;
+        }
+    }
+done:
+    return status;
+}
+
 enum pm_status pm_extension_new(const struct pm_mesh *m, struct pm_extension **out,
                                 struct pm_err *err)
 {
     enum pm_status status;
-    uint8_t *interior = NULL;
+    uint8_t *use = NULL;
+    ptrdiff_t most = 0;
     struct pm_extension *e = pm_calloc(1, sizeof *e, err);
     if (e == NULL)
         return PM_SYSTEM;
     e->mesh = m;
-    PM_TRY(PM_NEW(interior, m->nn, err));
-    memset(interior, 1, (size_t)m->nn);
-    for (ptrdiff_t k = 0; k < 6 * m->nf; k++)
-        interior[m->tri[k]] = 0;
-    PM_TRY(pm_pattern_new(
-        &(struct pm_pattern_source){m->nn, m->ne, 10, m->tet, interior, NULL, 1, 0, NULL},
-        &e->pattern, err));
-    PM_TRY(PM_NEW(e->rhs, 3 * e->pattern.n, err));
-    if (e->pattern.n > 0)
-        PM_TRY(factor_laplace(e, err));
+    PM_TRY(find_given(e, err));
+    PM_TRY(PM_NEW(use, m->nn, err));
+    for (int k = 0; k < e->nfields; k++) {
+        struct field *f = &e->field[k];
+        for (ptrdiff_t a = 0; a < m->nn; a++)
+            use[a] = !(e->given[a] >> f->axis[0] & 1);
+        PM_TRY(pm_pattern_new(
+            &(struct pm_pattern_source){m->nn, m->ne, 10, m->tet, use, NULL, 1, 0, NULL},
+            &f->pattern, err));
+        if (f->pattern.n > 0)
+            PM_TRY(factor_laplace(m, f, err));
+        most = f->pattern.n > most ? f->pattern.n : most;
+    }
+    PM_TRY(PM_NEW(e->rhs, 3 * most, err));
     *out = e;
     e = NULL;
 done:
-    pm_free(interior);
+    pm_free(use);
     pm_extension_free(e);
     return status;
 }
 
-enum pm_status pm_extension_apply(struct pm_extension *e, double *d, struct pm_err *err)
+static enum pm_status apply_field(const struct pm_extension *e, const struct field *f, double *d,
+                                  struct pm_err *err)
 {
     const struct pm_mesh *m = e->mesh;
-    const ptrdiff_t *eq = e->pattern.eq, n = e->pattern.n;
+    const ptrdiff_t *eq = f->pattern.eq, n = f->pattern.n;
     double K[100];
     if (n == 0)
         return PM_OK;
-    memset(e->rhs, 0, 3 * (size_t)n * sizeof *e->rhs);
+    memset(e->rhs, 0, (size_t)(f->naxes * n) * sizeof *e->rhs);
     for (ptrdiff_t k = 0; k < m->ne; k++) {
         const int32_t *t = m->tet + 10 * k;
         laplace_matrix(m, k, K);
         for (int a = 0; a < 10; a++)
             for (int b = 0; b < 10 && eq[t[a]] >= 0; b++)
-                for (int i = 0; i < 3 && eq[t[b]] < 0; i++)
-                    e->rhs[i * n + eq[t[a]]] -= K[10 * a + b] * d[3 * (ptrdiff_t)t[b] + i];
+                for (int i = 0; i < f->naxes && eq[t[b]] < 0; i++)
+                    e->rhs[i * n + eq[t[a]]] -= K[10 * a + b] * d[3 * (ptrdiff_t)t[b] + f->axis[i]];
     }
-    enum pm_status status = pm_cholesky_solve(e->factor, e->rhs, 3, err);
+    const enum pm_status status = pm_cholesky_solve(f->factor, e->rhs, f->naxes, err);
     for (ptrdiff_t a = 0; a < m->nn && status == PM_OK; a++)
-        for (int i = 0; i < 3 && eq[a] >= 0; i++)
-            d[3 * a + i] = e->rhs[i * n + eq[a]];
+        for (int i = 0; i < f->naxes && eq[a] >= 0; i++)
+            d[3 * a + f->axis[i]] = e->rhs[i * n + eq[a]];
     return status;
 }
 
-enum pm_status pm_extension_transpose(struct pm_extension *e, double *D, struct pm_err *err)
+/* Nodes of symmetry planes stay on them. */
+static void clear_planes(const struct pm_extension *e, double *d)
+{
+    for (ptrdiff_t a = 0; a < e->mesh->nn; a++)
+        for (int i = 0; i < 3; i++)
+            if (e->plane[a] >> i & 1)
+                d[3 * a + i] = 0;
+}
+
+enum pm_status pm_extension_apply(struct pm_extension *e, double *d, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    clear_planes(e, d);
+    for (int k = 0; k < e->nfields; k++)
+        PM_TRY(apply_field(e, &e->field[k], d, err));
+done:
+    return status;
+}
+
+static enum pm_status transpose_field(const struct pm_extension *e, const struct field *f,
+                                      double *D, struct pm_err *err)
 {
     const struct pm_mesh *m = e->mesh;
-    const ptrdiff_t *eq = e->pattern.eq, n = e->pattern.n;
+    const ptrdiff_t *eq = f->pattern.eq, n = f->pattern.n;
     double K[100];
     if (n == 0)
         return PM_OK;
     for (ptrdiff_t a = 0; a < m->nn; a++)
-        for (int i = 0; i < 3 && eq[a] >= 0; i++) {
-            e->rhs[i * n + eq[a]] = D[3 * a + i];
-            D[3 * a + i] = 0.0;
+        for (int i = 0; i < f->naxes && eq[a] >= 0; i++) {
+            e->rhs[i * n + eq[a]] = D[3 * a + f->axis[i]];
+            D[3 * a + f->axis[i]] = 0.0;
         }
-    enum pm_status status = pm_cholesky_solve(e->factor, e->rhs, 3, err);
+    const enum pm_status status = pm_cholesky_solve(f->factor, e->rhs, f->naxes, err);
     for (ptrdiff_t k = 0; k < m->ne && status == PM_OK; k++) {
         const int32_t *t = m->tet + 10 * k;
         laplace_matrix(m, k, K);
         for (int a = 0; a < 10; a++)
             for (int b = 0; b < 10 && eq[t[a]] < 0; b++)
-                for (int i = 0; i < 3 && eq[t[b]] >= 0; i++)
-                    D[3 * (ptrdiff_t)t[a] + i] -= K[10 * a + b] * e->rhs[i * n + eq[t[b]]];
+                for (int i = 0; i < f->naxes && eq[t[b]] >= 0; i++)
+                    D[3 * (ptrdiff_t)t[a] + f->axis[i]] -= K[10 * a + b] * e->rhs[i * n + eq[t[b]]];
     }
+    return status;
+}
+
+enum pm_status pm_extension_transpose(struct pm_extension *e, double *D, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    for (int k = 0; k < e->nfields; k++)
+        PM_TRY(transpose_field(e, &e->field[k], D, err));
+    clear_planes(e, D);
+done:
     return status;
 }
 
@@ -138,8 +214,12 @@ void pm_extension_free(struct pm_extension *e)
 {
     if (e == NULL)
         return;
-    pm_cholesky_free(e->factor);
-    pm_pattern_release(&e->pattern);
+    for (int k = 0; k < e->nfields; k++) {
+        pm_cholesky_free(e->field[k].factor);
+        pm_pattern_release(&e->field[k].pattern);
+    }
+    pm_free(e->given);
+    pm_free(e->plane);
     pm_free(e->rhs);
     pm_free(e);
 }

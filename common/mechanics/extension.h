@@ -1,6 +1,7 @@
 /* Extension of surface motion to all nodes of a mesh [model 5]: three scalar quadratic Laplace
- * problems on the generated mesh, X_I = X0_I + Ext (X_S - X0_S); every boundary node (surface, cap)
- * is given. */
+ * problems on the generated mesh, X_I = X0_I + Ext (X_S - X0_S); every node of surfaces and caps is
+ * given. Nodes of symmetry planes stay on them, and are extended to in them as if the body went on
+ * behind. */
 #ifndef PM_EXTENSION_H
 #define PM_EXTENSION_H
 
@@ -10,9 +11,9 @@ struct pm_extension;
 
 enum pm_status pm_extension_new(const struct pm_mesh *m, struct pm_extension **e,
                                 struct pm_err *err);
-/* d (nn x 3): values at boundary nodes are given, values at interior nodes are filled. */
+/* d (nn x 3): values at nodes of surfaces and caps are given, the others are filled. */
 enum pm_status pm_extension_apply(struct pm_extension *e, double *d, struct pm_err *err);
-/* Transpose: D (nn x 3) nodal gradient; D_S -= K_SI K_II^-1 D_I on boundary nodes, interior rows
+/* Transpose: D (nn x 3) nodal gradient; D_S -= K_SI K_II^-1 D_I on given values, the others
  * cleared. */
 enum pm_status pm_extension_transpose(struct pm_extension *e, double *D, struct pm_err *err);
 void pm_extension_free(struct pm_extension *e);

@@ -139,6 +139,40 @@ done:
     return status;
 }
 
+/* A symmetry plane across each axis: 0 none, else the side of it that the mesh is on. */
+struct planes {
+    int side[3];
+    double at[3]; /* [mm] */
+};
+
+static void find_planes(const struct pm_mesh *m, struct planes *p)
+{
+    *p = (struct planes){.side = {0}};
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        const int axis = PM_FACE_SYM_X - m->tri_tag[f];
+        if (axis < 0 || axis > 2 || p->side[axis] != 0)
+            continue;
+        double sum = 0;
+        p->at[axis] = m->x[3 * (ptrdiff_t)m->tri[m->npf * f] + axis];
+        for (ptrdiff_t a = 0; a < m->nn; a++)
+            sum += m->x[3 * a + axis] - p->at[axis];
+        p->side[axis] = sum < 0 ? -1 : 1;
+    }
+}
+
+/* X or its image on the side of the mesh; bit i: reflected along axis i. */
+static unsigned fold(const struct planes *p, const double *X, double Y[3])
+{
+    unsigned turned = 0;
+    for (int i = 0; i < 3; i++) {
+        const double off = X[i] - p->at[i];
+        const int behind = p->side[i] * off < 0;
+        Y[i] = behind ? p->at[i] - off : X[i];
+        turned |= (unsigned)behind << i;
+    }
+    return turned;
+}
+
 /* u + (F - I) offset at the place. */
 static void carry(const struct place *p, const double *u, double out[3])
 {
@@ -169,11 +203,18 @@ enum pm_status pm_transfer(const struct pm_mesh *from, const double *u, const st
 {
     enum pm_status status;
     struct pm_boxes *boxes = NULL;
+    struct planes planes;
     PM_TRY(new_boxes(from, &boxes, err));
+    find_planes(from, &planes);
     for (ptrdiff_t a = 0; a < to->nn; a++) {
-        struct place p = {.m = from, .X = to->x + 3 * a};
-        pm_boxes_nearest(boxes, p.X, HUGE_VAL, find_in, &p);
+        double X[3];
+        const unsigned turned = fold(&planes, to->x + 3 * a, X);
+        struct place p = {.m = from, .X = X};
+        pm_boxes_nearest(boxes, X, HUGE_VAL, find_in, &p);
         carry(&p, u, u_to + 3 * a);
+        for (int i = 0; i < 3; i++)
+            if (turned >> i & 1)
+                u_to[3 * a + i] = -u_to[3 * a + i];
     }
     hold(to, u_to);
 done:

@@ -58,8 +58,28 @@ done:
     return status;
 }
 
+/* Bit i: the mesh has a symmetry plane across axis i, here through the origin. */
+static unsigned planes_of(const struct pm_mesh *m)
+{
+    unsigned planes = 0;
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        if (m->tri_tag[f] <= PM_FACE_SYM_X)
+            planes |= 1u << (PM_FACE_SYM_X - m->tri_tag[f]);
+    return planes;
+}
+
+/* Largest part of the three axes that are not in `except`. */
+static double largest(const double x[3], const double y[3], double size, unsigned except)
+{
+    double most = 0;
+    for (int i = 0; i < 3; i++)
+        if (!(except >> i & 1))
+            most = fmax(most, fabs(x[i] - y[i]) / size);
+    return most;
+}
+
 /* Relative defects of D under translation, scaling and rotation of the body [model 4.3]: exact
- * identities. */
+ * identities of the motions that keep the symmetry planes. */
 static void identities(const struct adjsens_point *pt, const double *D, const double D_ref[3],
                        struct pm_sens *out)
 {
@@ -96,11 +116,14 @@ static void identities(const struct adjsens_point *pt, const double *D, const do
                 want[i] += v[j] * g[k] - v[k] * g[j];
                 Euler += l == 0 ? g[i] * v[i] : 0.0;
             }
-    out->identity_translation = fmax(fabs(sum[0]), fmax(fabs(sum[1]), fabs(sum[2]))) / size[0];
+    const unsigned planes = planes_of(mesh);
+    unsigned turned = 0; /* turns about the normal of the only plane */
+    for (unsigned i = 0; i < 3; i++)
+        if ((planes & ~(1u << i)) != 0)
+            turned |= 1u << i;
+    out->identity_translation = largest(sum, (const double[3]){0}, size[0], planes);
     out->identity_scaling = fabs(scale - Euler) / size[1];
-    out->identity_rotation =
-        fmax(fabs(turn[0] - want[0]), fmax(fabs(turn[1] - want[1]), fabs(turn[2] - want[2]))) /
-        size[2];
+    out->identity_rotation = largest(turn, want, size[2], turned);
 }
 
 struct pm_adjoint_at adjsens_at(const struct adjsens_point *pt)
