@@ -281,7 +281,43 @@ done:
     return status;
 }
 
-static void print_faces(const struct pm_state *s, int chamber)
+/* What is behind symmetry planes is the image of the mesh. */
+struct images {
+    unsigned planes; /* bit i: across axis i */
+    double at[3];    /* [mm] */
+};
+
+static struct images find_images(const struct pm_mesh *m)
+{
+    struct images p = {.planes = 0};
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        const int axis = PM_FACE_SYM_X - m->tri_tag[f];
+        if (axis < 0)
+            continue;
+        p.planes |= 1u << axis;
+        p.at[axis] = m->x[3 * (ptrdiff_t)m->tri[m->npf * f] + axis];
+    }
+    return p;
+}
+
+/* A facet of the mesh in the image that is reflected along the axes in `image`. */
+static void print_image(const struct images *p, unsigned image, double x[3][3],
+                        const double size[3], int surface)
+{
+    double y[3][3], s[3];
+    int odd = 0;
+    for (int i = 0; i < 3; i++)
+        odd ^= (int)(image >> i & 1);
+    for (int v = 0; v < 3; v++) {
+        const int from = odd && v > 0 ? 3 - v : v;
+        for (int i = 0; i < 3; i++)
+            y[v][i] = image >> i & 1 ? 2 * p->at[i] - x[from][i] : x[from][i];
+        s[v] = size[from];
+    }
+    print_facet(y, s, surface);
+}
+
+static void print_faces(const struct pm_state *s, const struct images *images, int chamber)
 {
     static const int quadratic[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}},
                      linear[1][3] = {{0, 1, 2}};
@@ -290,7 +326,7 @@ static void print_faces(const struct pm_state *s, int chamber)
 
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         const int32_t tag = m->tri_tag[f];
-        if (chamber > 0 ? tag != chamber : tag > 0)
+        if (chamber > 0 ? tag != chamber : tag > 0 || tag <= PM_FACE_SYM_X)
             continue;
         for (int p = 0; p < parts; p++) {
             double x[3][3], size[3];
@@ -301,7 +337,9 @@ static void print_faces(const struct pm_state *s, int chamber)
                     x[v][k] = m->x[3 * a + k] + u[k];
                 size[v] = sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
             }
-            print_facet(x, size, chamber);
+            for (unsigned image = 0; image < 8; image++)
+                if ((image & ~images->planes) == 0)
+                    print_image(images, image, x, size, chamber);
         }
     }
 }
@@ -309,6 +347,7 @@ static void print_faces(const struct pm_state *s, int chamber)
 void pmplot_deformed(const struct pm_state *s)
 {
     puts("# x y z |u| [mm] light surface");
+    const struct images images = find_images(&s->mesh);
     for (int k = 0; k <= s->mesh.nc; k++)
-        print_faces(s, k);
+        print_faces(s, &images, k);
 }
