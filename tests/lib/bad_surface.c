@@ -48,7 +48,10 @@ int main(int argc, char **argv)
         shift(&s.s[1], 6);
     else if (strcmp(argv[1], "overlap") == 0)
         shift(&s.s[1], -6);
-    else if (strcmp(argv[1], "nested") == 0)
+    else if (strcmp(argv[1], "both") == 0) {
+        shift(&s.s[1], -6);
+        shift(&s.s[2], 6);
+    } else if (strcmp(argv[1], "nested") == 0)
         nest(&s.s[1], &s.s[2]);
     else if (strcmp(argv[1], "turned") == 0)
         turn(&s.s[1]);

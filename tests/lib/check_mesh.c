@@ -11,6 +11,7 @@
 #include "common/mechanics/tet10.h"
 #include "tools/tetmesh/curve.h"
 #include "tools/tetmesh/edges.h"
+#include "tools/tetmesh/mirror.h"
 #include "tools/tetmesh/quality.h"
 
 static int bad;
@@ -76,6 +77,8 @@ static void check_volumes(const struct pm_mesh *m, const struct pm_surfaces *s, 
 {
     struct pm_err err = {.status = PM_OK};
     struct pm_samples samples = {0};
+    const unsigned planes = pm_mirrors_of(m);
+    const double parts = (planes & 1 ? 2 : 1) * (planes & 2 ? 2 : 1); /* alike */
     double volume = 0;
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         double X[30], b[20];
@@ -91,7 +94,7 @@ static void check_volumes(const struct pm_mesh *m, const struct pm_surfaces *s, 
     printf("body: %.3f mm3 in the mesh\n", volume);
     expect(pm_samples_new(s, 1, 1, &samples, &err) == PM_OK, err.text, 0, 0);
     for (int k = 1; k < s->ns; k++) {
-        const double mesh = -flux(m, k, k), exact = pm_samples_volume(&samples, phi, k);
+        const double mesh = -parts * flux(m, k, k), exact = pm_samples_volume(&samples, phi, k);
         printf("chamber %d: %.3f mm3 in the mesh, %.3f mm3 of the surface\n", k, mesh, exact);
         expect(fabs(mesh - exact) <= tolerance * exact, "volume of a chamber [mm3]", mesh, exact);
     }
@@ -124,12 +127,22 @@ static void check_caps(const struct pm_mesh *m)
 {
     double worst = 0, H = m->pcase.height;
     for (ptrdiff_t f = 0; f < m->nf; f++)
-        for (int k = 0; k < 6 && m->tri_tag[f] < 0; k++)
+        for (int k = 0; k < 6 && m->tri_tag[f] < 0 && m->tri_tag[f] >= PM_FACE_TIP; k++)
             worst = fmax(worst, fabs(m->x[3 * m->tri[6 * f + k] + 2] -
                                      (m->tri_tag[f] == PM_FACE_TIP ? H : 0)));
     expect(worst <= 1e-12 * H, "caps off their planes [mm]", worst, 0);
     expect(flux(m, PM_FACE_TIP, PM_FACE_TIP) > 0, "flux through the tip",
            flux(m, PM_FACE_TIP, PM_FACE_TIP), 1);
+}
+
+/* Nodes of mirror planes are on them exactly. */
+static void check_planes(const struct pm_mesh *m)
+{
+    double worst = 0;
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        for (int k = 0; k < 6 && m->tri_tag[f] <= PM_FACE_SYM_X; k++)
+            worst = fmax(worst, fabs(m->x[3 * m->tri[6 * f + k] + PM_FACE_SYM_X - m->tri_tag[f]]));
+    expect(worst == 0, "off the mirror plane [mm]", worst, 0);
 }
 
 int main(int argc, char **argv)
@@ -151,6 +164,7 @@ int main(int argc, char **argv)
     check_volumes(&m, &s, phi, strtod(argv[3], NULL));
     check_elements(&m);
     check_caps(&m);
+    check_planes(&m);
     pm_free(phi);
     pm_free(on);
     pm_mesh_release(&m);

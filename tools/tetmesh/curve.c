@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/base/memory.h"
+#include "common/geometry/remesh.h"
 #include "common/geometry/surface_map.h"
 #include "common/mechanics/extension.h"
 #include "tools/tetmesh/edges.h"
@@ -110,15 +111,30 @@ done:
     return status;
 }
 
+/* Rims (remesh.h) of the edge of two nodes. */
+static unsigned rims_of(const struct curving *c, ptrdiff_t k, ptrdiff_t a, ptrdiff_t b)
+{
+    const int32_t type = c->s->s[k].type;
+    const double *Sa = c->m->S + 3 * a, *Sb = c->m->S + 3 * b;
+    unsigned rim = 0;
+    if (type == PM_SURFACE_BSPLINE && Sa[2] == Sb[2])
+        rim = Sa[2] == 0 ? 1 : Sa[2] == 1 ? 2 : 0;
+    for (int j = 0; j < 2; j++)
+        if (c->shell->planes >> j & 1 && c->straight[3 * a + j] == 0 && c->straight[3 * b + j] == 0)
+            rim |= pm_rim_plane(type, j);
+    return rim;
+}
+
 /* Parameter of the foot of the middle of a chord: Newton for r_a . (r - middle) = 0 from the middle
- * of the parameters; on a rim v stays. Steps are at most a quarter of the chord. */
-static enum pm_status foot(struct curving *c, ptrdiff_t k, const double *Sa, const double *Sb,
-                           const double mid[3], double chord, double S[3], struct pm_err *err)
+ * of the parameters; on a rim v stays, on a mirror plane the steps are in it by symmetry but for
+ * rounding. Steps are at most a quarter of the chord. */
+static enum pm_status foot(struct curving *c, ptrdiff_t k, unsigned rims, const double mid[3],
+                           double chord, double S[3], struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const struct pm_surface *s = &c->s->s[k];
-    const int rim = s->type == PM_SURFACE_BSPLINE && Sa[2] == Sb[2] && (Sa[2] == 0 || Sa[2] == 1);
-    pm_map_middle(s->type, Sa, Sb, S);
+    const int rim = s->type == PM_SURFACE_BSPLINE && (rims & 3) != 0;
+    pm_rim_constrain(s->type, rims, S);
     for (int it = 0; it < 20; it++) {
         double r[3], r_a[6], r_ab[9], f[2] = {0}, g[3] = {0}, h[3], d[2];
         PM_TRY(pm_map_point(c->map[k], s->phi, S, &c->basis, r, r_a, r_ab, err));
@@ -151,8 +167,7 @@ static enum pm_status foot(struct curving *c, ptrdiff_t k, const double *Sa, con
         double next[3];
         pm_map_move(s->type, S, d, next);
         memcpy(S, next, sizeof next);
-        if (rim)
-            S[2] = Sa[2];
+        pm_rim_constrain(s->type, rims, S);
     }
 done:
     return status;
@@ -181,13 +196,16 @@ static enum pm_status find_feet(struct curving *c, struct pm_curve_report *r, st
         for (int i = 0; i < 3; i++)
             chord += (c->straight[3 * a + i] - c->straight[3 * b + i]) *
                      (c->straight[3 * a + i] - c->straight[3 * b + i]);
-        PM_TRY(foot(c, k, m->S + 3 * a, m->S + 3 * b, c->straight + 3 * n, sqrt(chord),
-                    m->S + 3 * n, err));
+        const unsigned rims = rims_of(c, k, a, b);
+        pm_map_middle(c->s->s[k].type, m->S + 3 * a, m->S + 3 * b, m->S + 3 * n);
+        PM_TRY(foot(c, k, rims, c->straight + 3 * n, sqrt(chord), m->S + 3 * n, err));
         PM_TRY(
             pm_map_point(c->map[k], c->s->s[k].phi, m->S + 3 * n, &c->basis, x, NULL, NULL, err));
         m->surface[n] = (int32_t)k;
         for (int i = 0; i < 3; i++)
-            c->shift[3 * n + i] = x[i] - c->straight[3 * n + i];
+            c->shift[3 * n + i] = i < 2 && rims & pm_rim_plane(c->s->s[k].type, i)
+                                      ? 0
+                                      : x[i] - c->straight[3 * n + i];
         r->surface_middles++;
     }
 done:
@@ -269,7 +287,8 @@ done:
     return status;
 }
 
-/* Rows of weights of all surface nodes; their positions are then exactly those rows times phi. */
+/* Rows of weights of all surface nodes; their positions are then exactly those rows times phi, but
+ * for the coordinates that are 0 on mirror planes. */
 static enum pm_status weigh(struct curving *c, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -291,6 +310,9 @@ static enum pm_status weigh(struct curving *c, struct pm_err *err)
         PM_TRY(pm_weights_close_row(&w, m->x + 3 * n, err));
     }
     pm_weights_finish(&w, m);
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        for (ptrdiff_t k = 0; k < m->npf && m->tri_tag[f] <= PM_FACE_SYM_X; k++)
+            m->x[3 * (ptrdiff_t)m->tri[m->npf * f + k] + PM_FACE_SYM_X - m->tri_tag[f]] = 0;
 done:
     pm_weights_release(&w);
     return status;
@@ -302,7 +324,6 @@ enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell 
 {
     enum pm_status status = PM_OK;
     struct curving c = {.s = s, .shell = shell, .m = m, .nv = tetra->nn};
-    double mean_ratio;
     *r = (struct pm_curve_report){0};
     m->nc = s->ns - 1;
     for (ptrdiff_t k = 0; k < s->ns; k++)
@@ -314,7 +335,6 @@ enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell 
     PM_TRY(extend(&c, err));
     PM_TRY(untangle(&c, r, err));
     PM_TRY(weigh(&c, err));
-    pm_curve_quality(m, m->x, &m->min_jacobian, &mean_ratio);
     PM_TRY(PM_NEW(m->x_generated, 3 * m->nn, err));
     memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
 done:

@@ -1,6 +1,8 @@
 #include "tools/tetmesh/import_msh.h"
 
+#include <errno.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -320,11 +322,26 @@ done:
     return status;
 }
 
+/* gmsh runs other files as scripts: only a mesh may pass. */
+static enum pm_status check_header(const char *path, struct pm_err *err)
+{
+    char head[16] = "";
+    FILE *f = fopen(path, "rb");
+    if (f == NULL)
+        return pm_fail(err, PM_INPUT, "%s", strerror(errno));
+    const size_t n = fread(head, 1, sizeof head - 1, f);
+    fclose(f);
+    if (n < 11 || strncmp(head, "$MeshFormat", 11) != 0)
+        return pm_fail(err, PM_INPUT, "it does not begin with $MeshFormat");
+    return PM_OK;
+}
+
 static enum pm_status import(const char *path, int promote_it, struct pm_mesh *m,
                              struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct importing c = {.m = m};
+    PM_TRY(check_header(path, err));
     PM_TRY(pm_gmsh_read(path, &c.raw, err));
     if (c.raw.corners == 10 && promote_it)
         PM_TRY(pm_fail(err, PM_USAGE,

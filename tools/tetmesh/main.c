@@ -7,6 +7,8 @@ static const struct pm_option options[] = {
     {"previous", 'p', "MESH.h5", "morph this mesh while its elements bear it"},
     {"record-failure", 'r', NULL,
      "where the surfaces cannot be meshed, write a mesh file that says why"},
+    {"symmetry", 'y', "auto|none",
+     "auto: the part of the body on one side of its mirror planes (default); none: all of it"},
     {"timeout", 't', "S", "give up a run of the mesher after this many seconds"},
     {"import", 'i', "FILE.msh", "take this gmsh file instead of surfaces"},
     {"promote", 0, NULL, "import: give 4-node tetrahedra 10 nodes, with straight edges"},
@@ -38,6 +40,16 @@ static enum pm_status reference(const char *name, const char *value, struct tetm
     return status;
 }
 
+static enum pm_status symmetry(const char *name, const char *value, struct tetmesh_opts *o,
+                               struct pm_err *err)
+{
+    o->whole = strcmp(value, "none") == 0;
+    if (!o->whole && strcmp(value, "auto") != 0)
+        return pm_fail(err, PM_USAGE, "option --%s: found '%s', expected auto or none", name,
+                       value);
+    return PM_OK;
+}
+
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
 {
     struct tetmesh_opts *o = data;
@@ -62,6 +74,8 @@ static enum pm_status option(void *data, const char *name, const char *value, st
             *simple[k].flag = 1;
         return PM_OK;
     }
+    if (strcmp(name, "symmetry") == 0)
+        return symmetry(name, value, o, err);
     int taken;
     const enum pm_status status = pm_material_option(&o->material, name, value, &taken, err);
     return taken ? status : reference(name, value, o, err);

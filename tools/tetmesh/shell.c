@@ -9,7 +9,7 @@
 #include "common/files/mesh.h"
 #include "common/geometry/collide.h"
 #include "common/geometry/remesh.h"
-#include "tools/tetmesh/volume_gmsh.h"
+#include "tools/tetmesh/flat.h"
 
 void pm_shell_release(struct pm_shell *s)
 {
@@ -34,7 +34,7 @@ const char *pm_shell_name(int32_t tag, char name[32])
     return name;
 }
 
-static enum pm_status grow(struct pm_shell *s, ptrdiff_t nn, ptrdiff_t nt, struct pm_err *err)
+enum pm_status pm_shell_grow(struct pm_shell *s, ptrdiff_t nn, ptrdiff_t nt, struct pm_err *err)
 {
     PM_GROW(s->x, 3 * (s->nn + nn), err);
     PM_GROW(s->size, s->nn + nn, err);
@@ -46,10 +46,14 @@ static enum pm_status grow(struct pm_shell *s, ptrdiff_t nn, ptrdiff_t nt, struc
 }
 
 static enum pm_status add_patch(struct pm_shell *s, const struct pm_patch *p, int32_t k,
-                                struct pm_err *err)
+                                int32_t type, struct pm_err *err)
 {
-    if (grow(s, p->nn, p->nt, err) != PM_OK)
+    if (pm_shell_grow(s, p->nn, p->nt, err) != PM_OK)
         return PM_SYSTEM;
+    for (ptrdiff_t a = 0; a < p->nn; a++)
+        for (int j = 0; j < 2; j++)
+            if (p->rim[a] & pm_rim_plane(type, j) && s->planes >> j & 1)
+                p->x[3 * a + j] = 0;
     memcpy(s->x + 3 * s->nn, p->x, (size_t)(3 * p->nn) * sizeof *s->x);
     memcpy(s->S + 3 * s->nn, p->S, (size_t)(3 * p->nn) * sizeof *s->S);
     memcpy(s->size + s->nn, p->size, (size_t)p->nn * sizeof *s->size);
@@ -64,107 +68,38 @@ static enum pm_status add_patch(struct pm_shell *s, const struct pm_patch *p, in
     return PM_OK;
 }
 
-struct rim_node {
-    double angle;
-    int32_t id;
-};
-
-static int by_angle(const void *a, const void *b)
-{
-    const struct rim_node *p = a, *q = b;
-    return (p->angle > q->angle) - (p->angle < q->angle);
-}
-
-/* Nodes of one rim counter-clockwise; the exterior is the first patch, so ids are those of the
- * shell. */
-static enum pm_status find_rim(const struct pm_patch *p, int rim, struct rim_node **out,
-                               ptrdiff_t *n, struct pm_err *err)
+enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirrors *y, double size,
+                              double timeout, struct pm_shell *shell, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    ptrdiff_t count = 0;
-    struct rim_node *r = NULL;
-    PM_TRY(PM_NEW(r, p->nn, err));
-    for (ptrdiff_t a = 0; a < p->nn; a++)
-        if (p->rim[a] == rim)
-            r[count++] = (struct rim_node){atan2(p->S[3 * a + 1], p->S[3 * a]), (int32_t)a};
-    qsort(r, (size_t)count, sizeof *r, by_angle);
-    for (ptrdiff_t k = 1; k < count; k++)
-        if (fabs(p->x[3 * r[k].id + 2] - p->x[3 * r[0].id + 2]) >
-            1e-9 * fmax(1, fabs(p->x[3 * r[0].id + 2])))
-            PM_TRY(pm_fail(
-                err, PM_INPUT, "the rim of the exterior at the %s is not planar: z = %g and %g",
-                rim == 1 ? "base" : "tip", p->x[3 * r[0].id + 2], p->x[3 * r[k].id + 2]));
-done:
-    *out = r;
-    *n = count;
-    return status;
-}
-
-static enum pm_status add_cap(struct pm_shell *s, const struct pm_patch *p, int rim, double size,
-                              double timeout, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    struct rim_node *r = NULL;
-    struct pm_planar disc = {0};
-    double *loop = NULL;
-    ptrdiff_t n = 0;
-    PM_TRY(find_rim(p, rim, &r, &n, err));
-    PM_TRY(PM_NEW(loop, 3 * n, err));
-    for (ptrdiff_t k = 0; k < n; k++)
-        memcpy(loop + 3 * k, p->x + 3 * r[k].id, 3 * sizeof *loop);
-    PM_TRY(pm_gmsh_disc(n, loop, size, timeout, &disc, err));
-    const ptrdiff_t inner = disc.nn - n;
-    PM_TRY(grow(s, inner, disc.nt, err));
-    for (ptrdiff_t a = 0; a < inner; a++) {
-        memcpy(s->x + 3 * (s->nn + a), disc.x + 3 * (n + a), 2 * sizeof *s->x);
-        s->x[3 * (s->nn + a) + 2] = loop[2];
-        memset(s->S + 3 * (s->nn + a), 0, 3 * sizeof *s->S);
-        s->size[s->nn + a] = size;
-        s->surface[s->nn + a] = -1;
-    }
-    for (ptrdiff_t t = 0; t < disc.nt; t++) {
-        for (int k = 0; k < 3; k++) {
-            const int32_t a = disc.tri[3 * t + (rim == 1 ? 2 - k : k)];
-            s->tri[3 * (s->nt + t) + k] = a < n ? r[a].id : (int32_t)(s->nn + a - n);
-        }
-        s->tag[s->nt + t] = rim == 1 ? PM_FACE_BASE : PM_FACE_TIP;
-    }
-    s->nn += inner;
-    s->nt += disc.nt;
-done:
-    pm_free(r);
-    pm_free(loop);
-    pm_free(disc.x);
-    pm_free(disc.tri);
-    return status;
-}
-
-enum pm_status pm_shell_build(const struct pm_surfaces *s, double size, double timeout,
-                              struct pm_shell *shell, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    const struct pm_remesh_opts o = {
+    struct pm_remesh_opts o = {
         .size = size, .size_min = size / 3, .crest = 1.2, .growth = 0.35, .sweeps = 8};
-    struct pm_patch exterior = {0}, patch = {0};
-    *shell = (struct pm_shell){0};
-    PM_TRY(pm_remesh(&s->s[0], 0, &o, &exterior, err));
-    PM_TRY(add_patch(shell, &exterior, 0, err));
-    for (ptrdiff_t k = 1; k < s->ns; k++) {
+    struct pm_patch patch = {0};
+    *shell = (struct pm_shell){.planes = y->planes};
+    for (ptrdiff_t k = 0; k < s->ns; k++) {
+        int kept;
+        const unsigned cut = pm_mirrors_cut(y, s, k, &kept);
+        if (!kept)
+            continue;
+        for (int j = 0; j < 2; j++)
+            o.mirror[j] = cut >> j & 1;
         PM_TRY(pm_remesh(&s->s[k], (int)k, &o, &patch, err));
-        PM_TRY(add_patch(shell, &patch, (int32_t)k, err));
+        PM_TRY(add_patch(shell, &patch, (int32_t)k, s->s[k].type, err));
+        if (k == 0) {
+            PM_TRY(pm_flat_cap(shell, &patch, 1, size, timeout, err));
+            PM_TRY(pm_flat_cap(shell, &patch, 2, size, timeout, err));
+        }
         pm_patch_release(&patch);
     }
-    PM_TRY(add_cap(shell, &exterior, 1, size, timeout, err));
-    PM_TRY(add_cap(shell, &exterior, 2, size, timeout, err));
 done:
-    pm_patch_release(&exterior);
     pm_patch_release(&patch);
     if (status != PM_OK)
         pm_shell_release(shell);
     return status;
 }
 
-/* Triangles of the exterior with its caps (tag 0) or of one chamber, copied together. */
+/* Triangles of the exterior with its caps (tag 0) or of one chamber, copied together. Faces on
+ * mirror planes, which go through the origin, would have no part in their volume. */
 static ptrdiff_t gather(const struct pm_shell *s, int32_t tag, int32_t *out)
 {
     ptrdiff_t n = 0;
@@ -172,6 +107,29 @@ static ptrdiff_t gather(const struct pm_shell *s, int32_t tag, int32_t *out)
         if ((tag == 0 && s->tag[t] <= 0) || s->tag[t] == tag)
             memcpy(out + 3 * n++, s->tri + 3 * t, 3 * sizeof *out);
     return n;
+}
+
+/* A surface that passes a mirror plane meets its image there; one that is not cut there keeps half
+ * of the distance that two surfaces do. */
+static enum pm_status check_planes(const struct pm_shell *s, struct pm_err *err)
+{
+    unsigned cut[PM_MAX_CHAMBERS + 1] = {0};
+    char name[32];
+    for (ptrdiff_t a = 0; a < s->nn; a++)
+        for (int j = 0; j < 2 && s->surface[a] >= 0; j++)
+            cut[s->surface[a]] |= (unsigned)(s->x[3 * a + j] == 0) << j;
+    for (ptrdiff_t a = 0; a < s->nn; a++)
+        for (int j = 0; j < 2; j++) {
+            const int32_t k = s->surface[a];
+            const double *p = s->x + 3 * a;
+            if (k < 0 || !(s->planes >> j & 1) || p[j] >= (cut[k] >> j & 1 ? 0 : s->size[a] / 40))
+                continue;
+            return pm_fail(err, PM_INPUT,
+                           "%s meets its image at the mirror plane %c = 0: it is at (%.3f, %.3f, "
+                           "%.3f) mm, meshed with edges of %.3g mm",
+                           pm_shell_name(k, name), "xy"[j], p[0], p[1], p[2], s -> size[a]);
+        }
+    return PM_OK;
 }
 
 static enum pm_status check_crossing(const struct pm_shell *s, struct pm_err *err)
@@ -195,6 +153,19 @@ static enum pm_status check_crossing(const struct pm_shell *s, struct pm_err *er
                    c.at[1], c.at[2], s->size[s->tri[3 * c.a]]);
 }
 
+/* Winding number of a surface and its images at the mirror planes. */
+static double winding(const struct pm_shell *s, const double *p, ptrdiff_t n, const int32_t *part)
+{
+    double sum = 0;
+    for (unsigned image = 0; image < 4; image++) {
+        if ((image & ~s->planes) != 0)
+            continue;
+        const double q[3] = {image & 1 ? -p[0] : p[0], image & 2 ? -p[1] : p[1], p[2]};
+        sum += pm_collide_winding(q, s->x, n, part);
+    }
+    return sum;
+}
+
 /* Nothing crosses any more, so one node of a chamber decides. */
 static enum pm_status check_nesting(const struct pm_shell *s, ptrdiff_t nchambers,
                                     struct pm_err *err)
@@ -205,6 +176,8 @@ static enum pm_status check_nesting(const struct pm_shell *s, ptrdiff_t nchamber
     PM_TRY(PM_NEW(part, 3 * s->nt, err));
     for (int32_t k = 0; k <= nchambers; k++) {
         const ptrdiff_t n = gather(s, k, part);
+        if (n == 0)
+            continue; /* it is behind a mirror plane */
         const double volume = pm_collide_volume(s->x, n, part);
         if (!(volume > 0))
             PM_TRY(pm_fail(err, PM_INPUT, "%s is inside out: it encloses %g mm3",
@@ -216,7 +189,7 @@ static enum pm_status check_nesting(const struct pm_shell *s, ptrdiff_t nchamber
             if (a == s->nn || j == k)
                 continue;
             const double *p = s->x + 3 * a;
-            const int inside = pm_collide_winding(p, s->x, n, part) > 0.5;
+            const int inside = winding(s, p, n, part) > 0.5;
             if (k == 0 && !inside)
                 PM_TRY(pm_fail(err, PM_INPUT,
                                "chamber %d is outside the body, at (%.3f, %.3f, %.3f) mm", (int)j,
@@ -256,6 +229,7 @@ done:
 enum pm_status pm_shell_check(const struct pm_shell *s, ptrdiff_t nchambers, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
+    PM_TRY(check_planes(s, err));
     PM_TRY(check_crossing(s, err));
     PM_TRY(check_nesting(s, nchambers, err));
     PM_TRY(check_near(s, err));

@@ -7,7 +7,9 @@
 #include "common/base/memory.h"
 #include "common/mechanics/extension.h"
 #include "tools/tetmesh/curve.h"
+#include "tools/tetmesh/flat.h"
 #include "tools/tetmesh/import_msh.h"
+#include "tools/tetmesh/mirror.h"
 #include "tools/tetmesh/redamp.h"
 #include "tools/tetmesh/shell.h"
 #include "tools/tetmesh/split.h"
@@ -20,8 +22,24 @@ static const double min_scaled = 0.1, min_mean_ratio = 0.1;
 /* A mesh below min_scaled is damped to this, so that it bears a further step. */
 static const double redamp_scaled = 0.15;
 
-static enum pm_status generate(const struct pm_surfaces *s, double size, double timeout,
-                               struct pm_mesh *m, struct pm_err *err)
+/* Shells for gmsh: chambers that mirror planes cut belong to the outer one. */
+static int32_t number_parts(const struct pm_surfaces *s, const struct pm_mirrors *y,
+                            const struct pm_shell *shell, int32_t *part)
+{
+    int32_t of[PM_MAX_CHAMBERS + 1] = {0}, n = 1;
+    for (ptrdiff_t k = 1; k < s->ns; k++) {
+        int kept;
+        const unsigned cut = pm_mirrors_cut(y, s, k, &kept);
+        of[k] = kept && cut == 0 ? n++ : 0;
+    }
+    for (ptrdiff_t t = 0; t < shell->nt; t++)
+        part[t] = shell->tag[t] > 0 ? of[shell->tag[t]] : 0;
+    return n;
+}
+
+/* The part of the body on the positive sides of the planes of y. */
+static enum pm_status generate(const struct pm_surfaces *s, const struct pm_mirrors *y, double size,
+                               double timeout, struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_shell shell = {0};
@@ -29,12 +47,12 @@ static enum pm_status generate(const struct pm_surfaces *s, double size, double 
     struct pm_curve_report r;
     int32_t *part = NULL;
     ptrdiff_t left = 0;
-    PM_TRY(pm_shell_build(s, size, timeout, &shell, err));
+    PM_TRY(pm_shell_build(s, y, size, timeout, &shell, err));
     PM_TRY(pm_shell_check(&shell, s->ns - 1, err));
+    PM_TRY(pm_flat_cuts(&shell, size, timeout, err));
     PM_TRY(PM_NEW(part, shell.nt, err));
-    for (ptrdiff_t t = 0; t < shell.nt; t++)
-        part[t] = shell.tag[t] > 0 ? shell.tag[t] : 0;
-    const struct pm_gmsh_input in = {shell.nn, shell.nt, shell.x, shell.tri, part, (int32_t)s->ns};
+    const int32_t parts = number_parts(s, y, &shell, part);
+    const struct pm_gmsh_input in = {shell.nn, shell.nt, shell.x, shell.tri, part, parts};
     PM_TRY(pm_gmsh_volume(&in, timeout, &tetra, err));
     if (tetra.delaunay)
         pm_warn("the HXT mesher failed (%s): meshed by Delaunay", tetra.why);
@@ -84,11 +102,14 @@ done:
     return status;
 }
 
-/* Tries the previous mesh: *good = 1 and m holds it morphed, or 0 and m is empty. */
-static enum pm_status reuse(const char *path, const struct pm_surfaces *s, struct pm_mesh *m,
+/* Tries the previous mesh, which must be cut at `planes`: *good = 1 and m holds it morphed, or 0
+ * and m is empty. */
+static enum pm_status reuse(const char *path, const struct pm_surfaces *s,
+                            const struct pm_mirrors *y, unsigned planes, struct pm_mesh *m,
                             int *good, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
+    struct pm_err why = {.status = PM_OK};
     int same = 0;
     *good = 0;
     PM_TRY(pm_mesh_load(path, 1, m, err));
@@ -99,6 +120,10 @@ static enum pm_status reuse(const char *path, const struct pm_surfaces *s, struc
                        "cannot use '%s': an imported mesh has no control points, expected one made "
                        "from surfaces",
                        path));
+    } else if (pm_mirrors_of(m) != planes) {
+        pm_log(0, "previous mesh '%s' is of another part of the body: meshing anew", path);
+    } else if (pm_mirrors_check(s, y, &why) != PM_OK) {
+        pm_log(0, "previous mesh '%s' given up: %s", path, why.text);
     } else {
         PM_TRY(pm_weights_same(m, s, &same, err));
         if (same)
@@ -112,16 +137,38 @@ done:
     return status;
 }
 
+/* A new mesh: of the part that all mirrors leave, and its images at those that do not bound the
+ * model. */
+static enum pm_status make_new(const struct tetmesh_opts *o, const struct pm_surfaces *s,
+                               const struct pm_mirrors *y, unsigned planes, struct pm_mesh *m,
+                               struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const double size = o->size > 0 ? o->size : s->pcase.mesh_size;
+    double mean_ratio;
+    PM_TRY(pm_mirrors_check(s, y, err));
+    PM_TRY(generate(s, y, size, o->timeout, m, err));
+    for (int axis = 0; axis < 2; axis++)
+        if ((y->planes & ~planes) >> axis & 1)
+            PM_TRY(pm_mesh_reflect(s, y, axis, m, err));
+    pm_curve_quality(m, m->x, &m->min_jacobian, &mean_ratio);
+done:
+    return status;
+}
+
 static enum pm_status make(const struct tetmesh_opts *o, const struct pm_surfaces *s,
                            struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
+    struct pm_mirrors y;
     int good = 0;
+    pm_mirrors_find(s, &y);
+    const unsigned planes = o->whole ? 0 : y.own;
     if (o->previous != NULL)
-        PM_TRY(reuse(o->previous, s, m, &good, err));
+        PM_TRY(reuse(o->previous, s, &y, planes, m, &good, err));
     if (good)
         return PM_OK;
-    status = generate(s, o->size > 0 ? o->size : s->pcase.mesh_size, o->timeout, m, err);
+    status = make_new(o, s, &y, planes, m, err);
     if ((status == PM_INPUT || status == PM_NUMERIC) && o->record_failure) {
         pm_mesh_release(m);
         snprintf(m->failure, sizeof m->failure, "tetmesh: %.490s", err->text);
@@ -192,10 +239,10 @@ enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_commo
     if ((o->import != NULL) == (common->noperands == 1))
         return pm_fail(err, PM_USAGE, "expected either SURF.h5 or --import FILE.msh");
     if (o->import != NULL &&
-        (o->size > 0 || o->timeout > 0 || o->previous != NULL || o->record_failure))
-        return pm_fail(
-            err, PM_USAGE,
-            "--size, --timeout, --previous and --record-failure do not go with --import");
+        (o->size > 0 || o->timeout > 0 || o->previous != NULL || o->record_failure || o->whole))
+        return pm_fail(err, PM_USAGE,
+                       "--size, --timeout, --previous, --record-failure and --symmetry none do not "
+                       "go with --import");
     if (o->import == NULL && (o->promote || o->have_reference || o->case_file != NULL ||
                               materials > 0 || o->material.kappa > 0))
         return pm_fail(err, PM_USAGE,

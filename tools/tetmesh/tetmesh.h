@@ -10,6 +10,7 @@ struct tetmesh_opts {
     double timeout;       /* [s], 0: none */
     const char *previous; /* mesh to morph, or NULL */
     int record_failure;
+    int whole; /* the whole body even where a part of it is a model */
     /* instead of surfaces: */
     const char *import;    /* gmsh file, or NULL */
     int promote;           /* raise 4-node tetrahedra to 10 nodes */

@@ -2,7 +2,6 @@
 #include "tools/tetmesh/volume_gmsh.h"
 
 #include <assert.h>
-#include <errno.h>
 #include <gmshc.h>
 #include <math.h>
 #include <stdio.h>
@@ -148,57 +147,80 @@ done:
     return status;
 }
 
-struct disc_job {
-    ptrdiff_t n;
-    const double *loop;
+struct planar_job {
+    const struct pm_outline *in;
     double size;
 };
 
-static enum pm_status disc_job(const void *arg, struct pm_blob *out, struct pm_err *err)
+/* Points, lines and loops of the outline; loop (nloops) gets their tags. */
+static enum pm_status draw(const struct planar_job *job, int *curve, int *loop, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    const struct disc_job *job = arg;
-    const int n = (int)job->n;
+    const struct pm_outline *in = job->in;
+    for (int k = 0; k < (int)in->nn; k++) {
+        const double *p = in->x + 2 * k;
+        GMSH(gmshModelGeoAddPoint(p[0], p[1], 0, job->size, k + 1, &ierr), "planar face");
+        curve[k] = k + 1;
+    }
+    for (int l = 0; l < (int)in->nloops; l++) {
+        const int first = (int)in->first[l], n = (int)in->first[l + 1] - first;
+        for (int k = 0; k < n; k++) {
+            const int line = first + k + 1, next = first + (k + 1) % n + 1;
+            GMSH(gmshModelGeoAddLine(line, next, line, &ierr), "planar face");
+            GMSH(gmshModelGeoMeshSetTransfiniteCurve(line, 2, "Progression", 1, &ierr),
+                 "planar face");
+        }
+        loop[l] = l + 1;
+        GMSH(gmshModelGeoAddCurveLoop(curve + first, (size_t)n, loop[l], 0, &ierr), "planar face");
+    }
+done:
+    return status;
+}
+
+static enum pm_status planar_job(const void *arg, struct pm_blob *out, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct planar_job *job = arg;
+    const struct pm_outline *in = job->in;
+    struct pm_blob x = {NULL, 0};
     int32_t *place = NULL;
-    int *curve = NULL, loop = 1;
+    int *curve = NULL, *loop = NULL;
     size_t highest = 0;
     PM_TRY(start(err));
-    PM_TRY(PM_NEW(curve, n, err));
-    for (int k = 0; k < n; k++) {
-        const double *p = job->loop + 3 * k;
-        GMSH(gmshModelGeoAddPoint(p[0], p[1], p[2], job->size, k + 1, &ierr), "cap");
-    }
-    for (int k = 0; k < n; k++) {
-        curve[k] = k + 1;
-        GMSH(gmshModelGeoAddLine(k + 1, (k + 1) % n + 1, k + 1, &ierr), "cap");
-        GMSH(gmshModelGeoMeshSetTransfiniteCurve(k + 1, 2, "Progression", 1, &ierr), "cap");
-    }
-    GMSH(gmshModelGeoAddCurveLoop(curve, (size_t)n, 1, 0, &ierr), "cap");
-    GMSH(gmshModelGeoAddPlaneSurface(&loop, 1, 1, &ierr), "cap");
-    GMSH(gmshModelGeoSynchronize(&ierr), "cap");
-    GMSH(gmshModelMeshGenerate(2, &ierr), "cannot mesh a cap");
-    PM_TRY(get_nodes(n, &out[0], &place, &highest, err));
+    PM_TRY(PM_NEW(curve, in->nn, err));
+    PM_TRY(PM_NEW(loop, in->nloops, err));
+    PM_TRY(draw(job, curve, loop, err));
+    GMSH(gmshModelGeoAddPlaneSurface(loop, (size_t)in->nloops, 1, &ierr), "planar face");
+    GMSH(gmshModelGeoSynchronize(&ierr), "planar face");
+    GMSH(gmshModelMeshGenerate(2, &ierr), "cannot mesh a planar face");
+    PM_TRY(get_nodes(in->nn, &x, &place, &highest, err));
     PM_TRY(get_elements(GMSH_TRIANGLE, 3, place, highest, &out[1], err));
+    const ptrdiff_t nn = x.bytes / (ptrdiff_t)(3 * sizeof(double));
+    PM_TRY(blob(&out[0], 2 * nn, sizeof(double), err));
+    for (ptrdiff_t k = 0; k < 2 * nn; k++)
+        ((double *)out[0].data)[k] = ((double *)x.data)[3 * (k / 2) + k % 2];
     /* gmsh numbers the nodes of points first and in their order */
-    for (ptrdiff_t k = 0; k < 3 * job->n; k++)
-        if (fabs(((const double *)out[0].data)[k] - job->loop[k]) > 1e-9)
-            PM_TRY(pm_fail(err, PM_NUMERIC, "gmsh moved node %td of the rim", k / 3));
+    for (ptrdiff_t k = 0; k < 2 * in->nn; k++)
+        if (fabs(((double *)out[0].data)[k] - in->x[k]) > 1e-9)
+            PM_TRY(pm_fail(err, PM_NUMERIC, "gmsh moved corner %td of a planar face", k / 2));
 done:
+    pm_free(x.data);
     pm_free(curve);
+    pm_free(loop);
     pm_free(place);
     return status;
 }
 
-enum pm_status pm_gmsh_disc(ptrdiff_t n, const double *loop, double size, double timeout,
-                            struct pm_planar *out, struct pm_err *err)
+enum pm_status pm_gmsh_planar(const struct pm_outline *in, double size, double timeout,
+                              struct pm_planar *out, struct pm_err *err)
 {
     struct pm_blob b[PM_MAX_BLOBS];
-    const struct disc_job job = {n, loop, size};
-    const enum pm_status status = pm_isolate(disc_job, &job, timeout, b, err);
+    const struct planar_job job = {in, size};
+    const enum pm_status status = pm_isolate(planar_job, &job, timeout, b, err);
     *out = (struct pm_planar){0};
     if (status != PM_OK)
         return status;
-    out->nn = b[0].bytes / (ptrdiff_t)(3 * sizeof(double));
+    out->nn = b[0].bytes / (ptrdiff_t)(2 * sizeof(double));
     out->nt = b[1].bytes / (ptrdiff_t)(3 * sizeof(int32_t));
     out->x = b[0].data;
     out->tri = b[1].data;
@@ -547,26 +569,11 @@ void pm_msh_release(struct pm_msh *m)
     *m = (struct pm_msh){0};
 }
 
-/* gmsh runs other files as scripts: only a mesh may pass. */
-static enum pm_status check_header(const char *path, struct pm_err *err)
-{
-    char head[16] = "";
-    FILE *f = fopen(path, "rb");
-    if (f == NULL)
-        return pm_fail(err, PM_INPUT, "%s", strerror(errno));
-    const size_t n = fread(head, 1, sizeof head - 1, f);
-    fclose(f);
-    if (n < 11 || strncmp(head, "$MeshFormat", 11) != 0)
-        return pm_fail(err, PM_INPUT, "it does not begin with $MeshFormat");
-    return PM_OK;
-}
-
 enum pm_status pm_gmsh_read(const char *path, struct pm_msh *out, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_blob b[PM_MAX_BLOBS] = {{0}};
     *out = (struct pm_msh){0};
-    PM_TRY(check_header(path, err));
     PM_TRY(pm_isolate(read_job, path, 0, b, err));
     memcpy(&out->corners, b[6].data, sizeof out->corners);
     out->nn = b[0].bytes / (ptrdiff_t)sizeof(int64_t);

@@ -1,4 +1,4 @@
-/* gmsh: planar caps, tetrahedra inside closed surfaces, mesh files. Each call runs gmsh in a child
+/* gmsh: planar faces, tetrahedra inside closed surfaces, mesh files. Each call runs gmsh in a child
  * process, quiet, single threaded, deterministic. */
 #ifndef PM_VOLUME_GMSH_H
 #define PM_VOLUME_GMSH_H
@@ -8,16 +8,22 @@
 
 #include "common/base/status.h"
 
-struct pm_planar {
-    ptrdiff_t nn, nt;
-    double *x;    /* the loop's nodes first (nn x 3) [mm] */
-    int32_t *tri; /* counter-clockwise like the loop (nt x 3) */
+struct pm_outline {
+    ptrdiff_t nn, nloops;
+    const double *x;        /* corners, one loop after the other; the first loop counter-clockwise,
+                               the others are holes (nn x 2) [mm] */
+    const ptrdiff_t *first; /* corners of loop l: first[l] .. first[l + 1] - 1 (nloops + 1) */
 };
 
-/* Meshes the polygon `loop` (n x 3, z constant, counter-clockwise seen from +z) with edges of
- * `size` inside; its edges are kept. */
-enum pm_status pm_gmsh_disc(ptrdiff_t n, const double *loop, double size, double timeout,
-                            struct pm_planar *out, struct pm_err *err);
+struct pm_planar {
+    ptrdiff_t nn, nt;
+    double *x;    /* the outline's corners first (nn x 2) [mm] */
+    int32_t *tri; /* counter-clockwise (nt x 3) */
+};
+
+/* Meshes the inside of the outline with edges of `size` away from it; its edges are kept. */
+enum pm_status pm_gmsh_planar(const struct pm_outline *in, double size, double timeout,
+                              struct pm_planar *out, struct pm_err *err);
 
 struct pm_gmsh_input {
     ptrdiff_t nn, nt;
@@ -54,9 +60,9 @@ struct pm_msh {
     char (*name)[PM_GROUP_NAME]; /* names of the surface groups (ng) */
 };
 
-/* Reads a gmsh file (2.2 or 4.1, ASCII or binary). PM_INPUT with gmsh's message where it cannot,
- * where there is no group `body` of 4- or 10-node tetrahedra of one kind, or where elements refer
- * to missing nodes. */
+/* Reads a gmsh file (2.2 or 4.1, ASCII or binary), whose first line the caller has looked at.
+ * PM_INPUT with gmsh's message where it cannot, where there is no group `body` of 4- or 10-node
+ * tetrahedra of one kind, or where elements refer to missing nodes. */
 enum pm_status pm_gmsh_read(const char *path, struct pm_msh *out, struct pm_err *err);
 void pm_msh_release(struct pm_msh *m);
 
