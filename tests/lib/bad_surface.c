@@ -47,10 +47,10 @@ int main(int argc, char **argv)
     else if (strcmp(argv[1], "pierce") == 0)
         shift(&s.s[1], 6);
     else if (strcmp(argv[1], "overlap") == 0)
-        shift(&s.s[1], -6);
+        shift(&s.s[1], -8);
     else if (strcmp(argv[1], "both") == 0) {
-        shift(&s.s[1], -6);
-        shift(&s.s[2], 6);
+        shift(&s.s[1], -8);
+        shift(&s.s[2], 8);
     } else if (strcmp(argv[1], "nested") == 0)
         nest(&s.s[1], &s.s[2]);
     else if (strcmp(argv[1], "turned") == 0)
