@@ -63,6 +63,7 @@ static enum pm_status read_surface(struct pm_h5 *f, const char *at, ptrdiff_t k,
     PM_TRY(pm_h5_get(f, member(name, at, k, "d0"), d, &s->d0, err));
     PM_TRY(pm_h5_get(f, member(name, at, k, "tri"), d, &s->tri, err));
     s->nt = d[0];
+    PM_TRY(pm_h5_get_into(f, member(name, at, k, "spacing"), 2, s->spacing, err));
     PM_TRY(check_surface(f, at, k, s, err));
 done:
     return status;
@@ -150,12 +151,13 @@ static enum pm_status write_surface(struct pm_h5 *f, const char *at, ptrdiff_t k
     PM_TRY(pm_h5_put_int(f, member(name, at, k, "type"), s->type, err));
     PM_TRY(pm_h5_put_int(f, member(name, at, k, "nu"), s->nu, err));
     PM_TRY(pm_h5_put_int(f, member(name, at, k, "nv"), s->nv, err));
-    const ptrdiff_t points[] = {s->n, 3}, triangles[] = {s->nt, 3};
+    const ptrdiff_t points[] = {s->n, 3}, triangles[] = {s->nt, 3}, two = 2;
     PM_TRY(pm_h5_put(f, member(name, at, k, "phi"), points, s->phi, err));
     PM_TRY(pm_h5_put(f, member(name, at, k, "free"), points, s->free, err));
     PM_TRY(pm_h5_put(f, member(name, at, k, "Phi"), points, s->Phi, err));
     PM_TRY(pm_h5_put(f, member(name, at, k, "d0"), points, s->d0, err));
     PM_TRY(pm_h5_put(f, member(name, at, k, "tri"), triangles, s->tri, err));
+    PM_TRY(pm_h5_put(f, member(name, at, k, "spacing"), &two, s->spacing, err));
 done:
     return status;
 }
@@ -184,15 +186,11 @@ done:
     return status;
 }
 
-static enum pm_status copy_surface(const struct pm_surface *a, struct pm_surface *b,
-                                   struct pm_err *err)
+enum pm_status pm_surface_copy(const struct pm_surface *a, struct pm_surface *b, struct pm_err *err)
 {
     enum pm_status status;
-    b->type = a->type;
-    b->n = a->n;
-    b->nu = a->nu;
-    b->nv = a->nv;
-    b->nt = a->nt;
+    *b = (struct pm_surface){.type = a->type, .n = a->n, .nu = a->nu, .nv = a->nv, .nt = a->nt};
+    memcpy(b->spacing, a->spacing, sizeof b->spacing);
     PM_TRY(pm_copy_array(&b->phi, a->phi, 3 * a->n, sizeof *a->phi, err));
     PM_TRY(pm_copy_array(&b->free, a->free, 3 * a->n, sizeof *a->free, err));
     PM_TRY(pm_copy_array(&b->Phi, a->Phi, 3 * a->n, sizeof *a->Phi, err));
@@ -212,7 +210,7 @@ enum pm_status pm_surfaces_copy(const struct pm_surfaces *from, struct pm_surfac
     PM_TRY(PM_NEW(to->s, from->ns, err));
     to->ns = from->ns;
     for (ptrdiff_t k = 0; k < from->ns; k++)
-        PM_TRY(copy_surface(&from->s[k], &to->s[k], err));
+        PM_TRY(pm_surface_copy(&from->s[k], &to->s[k], err));
     PM_TRY(fill_offsets(to, err));
     PM_TRY(pm_copy_array(&to->perm, from->perm, count, sizeof *from->perm, err));
     memcpy(to->reference_point, from->reference_point, sizeof to->reference_point);

@@ -24,6 +24,8 @@ struct pm_surface {
     /* B-spline: n = nu * nv, control point a around and b along is a + nu*b; rows b = 0 and nv-1
      * are the planar rims */
     ptrdiff_t nu, nv;
+    double spacing[2]; /* B-spline: mean edge of the grid around and along at the start, to which a
+                          reconstruction returns [mm]; 0: the numbers stay */
     ptrdiff_t nt;
     int32_t *tri; /* triangulation of the control points, normal n of the map (outward of the closed
                      surface) (nt x 3) */
@@ -51,6 +53,8 @@ enum pm_status pm_surfaces_load(const char *path, struct pm_surfaces *s,
 enum pm_status pm_surfaces_write(struct pm_h5 *f, const struct pm_surfaces *s, struct pm_err *err);
 enum pm_status pm_surfaces_copy(const struct pm_surfaces *from, struct pm_surfaces *to,
                                 struct pm_err *err);
+enum pm_status pm_surface_copy(const struct pm_surface *from, struct pm_surface *to,
+                               struct pm_err *err);
 /* All control points as one (N x 3) array, and back. */
 void pm_surfaces_gather(const struct pm_surfaces *s, double *phi);
 void pm_surfaces_scatter(struct pm_surfaces *s, const double *phi);

@@ -15,11 +15,11 @@ struct patch {
     ptrdiff_t cuts;
 };
 
-static void patch_init(const struct pm_surface *s, ptrdiff_t t, struct patch *p)
+static void patch_init(const struct pm_surface *s, const double *Phi, ptrdiff_t t, struct patch *p)
 {
     p->type = s->type;
     for (int k = 0; k < 3; k++) {
-        const double *S = &s->Phi[3 * (ptrdiff_t)s->tri[3 * t + k]];
+        const double *S = &Phi[3 * (ptrdiff_t)s->tri[3 * t + k]];
         memcpy(p->p[k], S, sizeof p->p[k]);
         if (s->type == PM_SURFACE_SPHERE)
             continue;
@@ -188,7 +188,7 @@ static enum pm_status fill(struct pm_samples *m, const struct pm_surfaces *s, pt
     ptrdiff_t i = m->first[k];
 
     for (ptrdiff_t t = 0; t < f->nt; t++) {
-        patch_init(f, t, &p);
+        patch_init(f, f->Phi, t, &p);
         p.cuts = cuts[t];
         for (ptrdiff_t q = 0; q < cuts[t] * cuts[t]; q++, i++) {
             part(&p, q, &m->S[3 * i], &m->w[i]);
@@ -202,6 +202,19 @@ static enum pm_status fill(struct pm_samples *m, const struct pm_surfaces *s, pt
 done:
     pm_basis_release(&b);
     return status;
+}
+
+void pm_samples_parameters(const struct pm_surface *s, const double *Phi, ptrdiff_t cuts, double *S)
+{
+    struct patch p;
+    double area;
+
+    for (ptrdiff_t t = 0; t < s->nt; t++) {
+        patch_init(s, Phi, t, &p);
+        p.cuts = cuts;
+        for (ptrdiff_t q = 0; q < cuts * cuts; q++, S += 3)
+            part(&p, q, S, &area);
+    }
 }
 
 static enum pm_status reserve(struct pm_samples *m, struct pm_err *err)

@@ -30,6 +30,11 @@ enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdi
 enum pm_status pm_samples_with_nodes(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
                                      struct pm_samples *samples, struct pm_err *err);
 void pm_samples_release(struct pm_samples *samples);
+/* Parameters S (cuts^2 nt x 3) of the samples that pm_samples_new takes with spacing HUGE_VAL, were
+ * the corners of the triangles at Phi (n x 3) instead of s->Phi: where a point of one
+ * parametrisation lies in another. */
+void pm_samples_parameters(const struct pm_surface *s, const double *Phi, ptrdiff_t cuts,
+                           double *S);
 /* r (3), r_a (2 x 3), r_ab (3 x 3) of sample i for control points phi (N x 3, global); NULL where
  * not wanted. */
 void pm_samples_at(const struct pm_samples *samples, ptrdiff_t i, const double *phi, double *r,

@@ -9,6 +9,7 @@
 #include "common/geometry/fit.h"
 #include "common/geometry/samples.h"
 #include "common/geometry/symmetry.h"
+#include "common/geometry/tube.h"
 #include "tools/surfgen/body.h"
 #include "tools/surfgen/chamber.h"
 #include "tools/surfgen/files.h"
@@ -265,6 +266,7 @@ enum pm_status pm_surfgen_from(const struct pm_case *c, const struct surfgen_fil
     enum pm_status status = PM_OK;
     struct plan p = {.c = c, .files = files, .fit = report};
     struct pm_samples m = {0};
+    double longest[2];
 
     memset(s, 0, sizeof *s);
     memset(report, 0, sizeof *report);
@@ -273,6 +275,7 @@ enum pm_status pm_surfgen_from(const struct pm_case *c, const struct surfgen_fil
     PM_TRY(pm_samples_new(s, INFINITY, 2, &m, err));
     for (ptrdiff_t k = 0; k < s->ns; k++)
         PM_TRY(shape(&p, s, &m, k, err));
+    PM_TRY(pm_tube_edges(&s->s[0], s->s[0].spacing, longest, err));
     PM_TRY(finish(s, &report->check, err));
 done:
     pm_outline_free(p.outline);

@@ -3,10 +3,19 @@
 #include <math.h>
 #include <string.h>
 
+#include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/files/record.h"
+#include "common/geometry/hemispheres.h"
+#include "common/geometry/parametrise.h"
 #include "common/geometry/remesh.h"
+#include "common/geometry/springs.h"
+#include "tools/surfremesh/spacing.h"
 
 enum { TRIES = 4 };
+
+/* The count of control points may be off the wanted one by this part. */
+static const double COUNT_OFF = 0.03;
 
 /* Planes S_j = 0 that mirror operations keep for chamber k (0-based). Its rotations, if any, must
  * be their products. */
@@ -70,34 +79,98 @@ done:
     return status;
 }
 
-/* Remeshed, whole again, with a count of nodes within 3 % of `wanted` where four tries suffice. */
-static enum pm_status spread(const struct pm_surface *s, ptrdiff_t k, const int mirror[3],
-                             double wanted, double size, struct pm_patch *p, struct pm_err *err)
+/* Half, quarter or eighth of the new nodes with edges near `size`; the paper's points stay what
+ * they are while their number is near enough. */
+static enum pm_status distribute(const struct pm_surface *s, ptrdiff_t k,
+                                 enum surfremesh_method method, const int mirror[3], double size,
+                                 int as_many, struct pm_patch *p, struct pm_err *err)
+{
+    const struct pm_springs_opts paper = {.size = as_many ? 0 : size,
+                                          .volume = 0.01,
+                                          .sweeps = 100,
+                                          .mirror = {mirror[0], mirror[1], mirror[2]}};
+    const struct pm_remesh_opts even = {.size = size,
+                                        .size_min = size,
+                                        .crest = 1,
+                                        .growth = 1,
+                                        .sweeps = 12,
+                                        .mirror = {mirror[0], mirror[1], mirror[2]}};
+
+    pm_patch_release(p);
+    return method == SURFREMESH_PAPER ? pm_springs(s, (int)k, &paper, p, err)
+                                      : pm_remesh(s, (int)k, &even, p, err);
+}
+
+/* New nodes, whole, and within 3 % of `wanted` where the tries suffice. */
+static enum pm_status spread(const struct pm_surface *s, ptrdiff_t k, enum surfremesh_method method,
+                             const int mirror[3], double wanted, double size, struct pm_patch *p,
+                             struct pm_err *err)
 {
     enum pm_status status = PM_OK;
+    double last = 0, step = 0, slope = -2; /* of log count over log size: less on few points */
 
     for (int attempt = 0; attempt < TRIES; attempt++) {
-        const struct pm_remesh_opts o = {.size = size,
-                                         .size_min = size,
-                                         .crest = 1,
-                                         .growth = 1,
-                                         .sweeps = 12,
-                                         .mirror = {mirror[0], mirror[1], mirror[2]}};
-        pm_patch_release(p);
-        PM_TRY(pm_remesh(s, (int)k, &o, p, err));
+        const int as_many = attempt == 0 && fabs((double)s->n / wanted - 1) < COUNT_OFF;
+        PM_TRY(distribute(s, k, method, mirror, size, as_many, p, err));
         for (int j = 2; j >= 0; j--)
             if (mirror[j])
                 PM_TRY(reflect(p, j, err));
-        if (fabs((double)p->nn / wanted - 1) < 0.03)
+        const double error = log((double)p->nn / wanted);
+        if (fabs(error) < COUNT_OFF)
             break;
-        size *= sqrt((double)p->nn / wanted);
+        if (attempt > 0)
+            slope = fmax(-3, fmin(-0.7, (error - last) / step));
+        last = error;
+        step = -error / slope;
+        size *= exp(step);
     }
 done:
     return status;
 }
 
+/* Near conformal parameters of the nodes p by their places on the old surface. */
+static enum pm_status conformal(const struct pm_surface *s, const int mirror[3], struct pm_patch *p,
+                                struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_map *map = NULL;
+    struct pm_basis work = {0};
+    struct pm_trimesh m = {.nn = p->nn, .nt = p->nt, .tri = p->tri};
+
+    PM_TRY(PM_NEW(m.x, 3 * m.nn, err));
+    PM_TRY(pm_map_new(s, &map, err));
+    for (ptrdiff_t a = 0; a < m.nn; a++)
+        PM_TRY(pm_map_point(map, s->phi, &p->S[3 * a], &work, &m.x[3 * a], NULL, NULL, err));
+    PM_TRY(pm_parametrise_sphere(&m, mirror, p->S, err));
+done:
+    pm_map_free(map);
+    pm_basis_release(&work);
+    pm_free(m.x);
+    return status;
+}
+
+/* New parameters for the nodes p; those they carry go to *carried. */
+static enum pm_status refine(const struct pm_surface *s, ptrdiff_t k, enum surfremesh_method method,
+                             const int mirror[3], struct pm_patch *p, double **carried,
+                             struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    int passes;
+
+    if (method == SURFREMESH_REMESH)
+        return PM_OK;
+    PM_TRY(pm_copy_array(carried, p->S, 3 * p->nn, sizeof *p->S, err));
+    if (method == SURFREMESH_CONFORMAL)
+        return conformal(s, mirror, p, err);
+    PM_TRY(pm_hemispheres(p->nn, p->S, p->nt, p->tri, &passes, err));
+    pm_log(2, "surface %td: %d of 2 hemispheres refined", k, passes);
+done:
+    return status;
+}
+
+/* The new surface of the nodes p, whose parameters of the old one are `carried`. */
 static enum pm_status take(const struct pm_surface *from, const struct pm_patch *p,
-                           struct pm_surface *to, struct pm_err *err)
+                           const double *carried, struct pm_surface *to, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_map *map = NULL;
@@ -106,16 +179,14 @@ static enum pm_status take(const struct pm_surface *from, const struct pm_patch 
     *to = (struct pm_surface){.type = PM_SURFACE_SPHERE, .n = p->nn, .nt = p->nt};
     PM_TRY(PM_NEW(to->phi, 3 * to->n, err));
     PM_TRY(PM_NEW(to->free, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->Phi, 3 * to->n, err));
     PM_TRY(PM_NEW(to->d0, to->n, err));
-    PM_TRY(PM_NEW(to->tri, 3 * to->nt, err));
+    PM_TRY(pm_copy_array(&to->Phi, p->S, 3 * to->n, sizeof *p->S, err));
+    PM_TRY(pm_copy_array(&to->tri, p->tri, 3 * to->nt, sizeof *p->tri, err));
     memset(to->free, 1, 3 * (size_t)to->n);
-    memcpy(to->Phi, p->S, 3 * (size_t)to->n * sizeof *to->Phi);
-    memcpy(to->tri, p->tri, 3 * (size_t)to->nt * sizeof *to->tri);
     PM_TRY(pm_map_new(from, &map, err));
     for (ptrdiff_t i = 0; i < to->n; i++)
         PM_TRY(
-            pm_map_point(map, from->phi, &to->Phi[3 * i], &work, &to->phi[3 * i], NULL, NULL, err));
+            pm_map_point(map, from->phi, &carried[3 * i], &work, &to->phi[3 * i], NULL, NULL, err));
     PM_TRY(pm_map_support(to->n, to->Phi, PM_MAP_NEIGHBOURS, to->d0, err));
 done:
     pm_map_free(map);
@@ -123,65 +194,24 @@ done:
     return status;
 }
 
-enum pm_status pm_chamber_remesh(const struct pm_surfaces *s, ptrdiff_t k, double spacing,
-                                 struct pm_surface *to, struct pm_err *err)
+enum pm_status pm_chamber_remesh(const struct pm_surfaces *s, ptrdiff_t k,
+                                 enum surfremesh_method method, double spacing,
+                                 struct pm_surface *to, double **carried, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
+    const struct pm_surface *f = &s->s[k];
     struct pm_patch p = {0};
     struct pm_spacing now;
     int mirror[3];
 
+    *carried = NULL;
     PM_TRY(mirrors(&s->pcase.symmetry, k - 1, mirror, err));
-    PM_TRY(pm_spacing_of(&s->s[k], &now, err));
-    PM_TRY(
-        spread(&s->s[k], k, mirror, now.area / (sqrt(0.75) * spacing * spacing), spacing, &p, err));
-    PM_TRY(take(&s->s[k], &p, to, err));
+    PM_TRY(pm_spacing_of(f, &now, err));
+    const double wanted = now.area / (sqrt(0.75) * spacing * spacing);
+    PM_TRY(spread(f, k, method, mirror, wanted, spacing, &p, err));
+    PM_TRY(refine(f, k, method, mirror, &p, carried, err));
+    PM_TRY(take(f, &p, *carried != NULL ? *carried : p.S, to, err));
 done:
     pm_patch_release(&p);
-    return status;
-}
-
-static double distance(const double *a, const double *b)
-{
-    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-}
-
-/* Heron's formula, safe against rounding of flat triangles. */
-static double area_of(double a, double b, double c)
-{
-    double h = (a + b + c) / 2;
-
-    return sqrt(fmax(0, h * (h - a) * (h - b) * (h - c)));
-}
-
-enum pm_status pm_spacing_of(const struct pm_surface *s, struct pm_spacing *out, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    struct pm_map *map = NULL;
-    struct pm_basis work = {0};
-    double *x = NULL, square = 0;
-
-    *out = (struct pm_spacing){0};
-    PM_TRY(pm_map_new(s, &map, err));
-    PM_TRY(PM_NEW(x, 3 * s->n, err));
-    for (ptrdiff_t i = 0; i < s->n; i++)
-        PM_TRY(pm_map_point(map, s->phi, &s->Phi[3 * i], &work, &x[3 * i], NULL, NULL, err));
-    for (ptrdiff_t t = 0; t < s->nt; t++) {
-        double l[3];
-        for (int j = 0; j < 3; j++) {
-            l[j] = distance(&x[3 * (ptrdiff_t)s->tri[3 * t + j]],
-                            &x[3 * (ptrdiff_t)s->tri[3 * t + (j + 1) % 3]]);
-            out->mean += l[j] / (3 * (double)s->nt);
-            square += l[j] * l[j] / (3 * (double)s->nt);
-            out->longest = fmax(out->longest, l[j]);
-        }
-        out->area += area_of(l[0], l[1], l[2]);
-    }
-    out->cv = sqrt(fmax(0, square - out->mean * out->mean)) / out->mean;
-    out->longest /= out->mean;
-done:
-    pm_map_free(map);
-    pm_basis_release(&work);
-    pm_free(x);
     return status;
 }

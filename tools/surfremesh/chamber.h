@@ -2,23 +2,16 @@
 #ifndef PM_SURFREMESH_CHAMBER_H
 #define PM_SURFREMESH_CHAMBER_H
 
-#include "common/files/surfaces.h"
+#include "tools/surfremesh/surfremesh.h"
 
-/* Isotropic remeshing of surface k (the first of its orbit) at `spacing` [mm]; every new control
- * point carries its parameter of the old surface, r = f_old(S), so Phi = S needs no inversion.
- * Mirrors of the case that keep the chamber are kept exactly: one side is remeshed and reflected.
- * *to gets Phi, phi = f_old(Phi) (unfitted), d0 and the triangulation. PM_NUMERIC where an
- * operation other than a coordinate mirror keeps the chamber. */
-enum pm_status pm_chamber_remesh(const struct pm_surfaces *s, ptrdiff_t k, double spacing,
-                                 struct pm_surface *to, struct pm_err *err);
-/* Spacing of the control points over the surface: edge lengths of their triangulation. */
-struct pm_spacing {
-    double mean;    /* [mm] */
-    double cv;      /* standard deviation / mean */
-    double longest; /* longest / mean */
-    double area;    /* of the triangulation [mm2] */
-};
-enum pm_status pm_spacing_of(const struct pm_surface *s, struct pm_spacing *out,
-                             struct pm_err *err);
+/* Redistribution over surface k (the first of its orbit) at `spacing` [mm]: isotropic remeshing, or
+ * the paper's springs. Every new control point carries its parameter of the old surface, so no map
+ * is inverted. Mirrors of the case that keep the chamber are kept exactly: one side is remeshed and
+ * reflected. *to gets Phi, phi = f_old (unfitted), d0 and the triangulation; *carried (n x 3, new
+ * memory) the parameters of the old surface, NULL where they are Phi. PM_NUMERIC where an operation
+ * other than a coordinate mirror keeps the chamber. */
+enum pm_status pm_chamber_remesh(const struct pm_surfaces *s, ptrdiff_t k,
+                                 enum surfremesh_method method, double spacing,
+                                 struct pm_surface *to, double **carried, struct pm_err *err);
 
 #endif

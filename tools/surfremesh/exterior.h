@@ -2,17 +2,23 @@
 #ifndef PM_SURFREMESH_EXTERIOR_H
 #define PM_SURFREMESH_EXTERIOR_H
 
-#include "common/geometry/surface_map.h"
+#include "common/files/surfaces.h"
 
+/* Numbers of control points around (a multiple of 12) and along that bring the mean edges back to
+ * s->spacing, or those there are where it is 0; *off: how far the edges are off it, as a part. */
+enum pm_status pm_exterior_counts(const struct pm_surface *s, ptrdiff_t *nu, ptrdiff_t *nv,
+                                  double *off, struct pm_err *err);
 /* How uneven the control points lie: longest over mean length of the grid's edges around and along,
- * the worse of the two; edges along next to the rims, short by construction, are left out. */
+ * the worse of the two. */
 enum pm_status pm_exterior_unevenness(const struct pm_surface *s, double *ratio,
                                       struct pm_err *err);
-/* Shifts (n x 2) in (theta, v) of the control points' parameters, relaxed so that every point lies
- * in the middle of its four neighbours; rows 0, 1, nv-2, nv-1 stay. */
-enum pm_status pm_exterior_relax(const struct pm_surface *s, double *shift, struct pm_err *err);
-/* Parameter of the old surface under S of the new one: (theta, v) + sum c_m(S) shift_m. */
-enum pm_status pm_exterior_start(const struct pm_map *map, const double *shift, const double S[3],
-                                 struct pm_basis *work, double old[3], struct pm_err *err);
+/* A grid nu x nv on the old surface, relaxed so that every point lies in the middle of its four
+ * neighbours; the rims and the rows beside them stay. *to gets Phi, free, the triangles and phi =
+ * f_old (unfitted), the heights z = height v where they are not free, and on the rims control
+ * points whose curve passes through the old one at theta = 2 pi a / nu. *carried (n x 3, new
+ * memory): the parameters of the old surface. */
+enum pm_status pm_exterior_spread(const struct pm_surface *s, double height, ptrdiff_t nu,
+                                  ptrdiff_t nv, struct pm_surface *to, double **carried,
+                                  struct pm_err *err);
 
 #endif

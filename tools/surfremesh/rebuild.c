@@ -4,68 +4,40 @@
 #include <string.h>
 
 #include "common/base/memory.h"
+#include "common/files/record.h"
+#include "common/geometry/distance.h"
 #include "common/geometry/fit.h"
-#include "common/geometry/samples.h"
 #include "common/geometry/symmetry.h"
 #include "tools/surfremesh/chamber.h"
 #include "tools/surfremesh/exterior.h"
 
-static const double CV_MAX = 0.25, SPACING_OFF = 0.15, UNEVEN_MAX = 2.0;
-
-static enum pm_status plan_chamber(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
+void rebuild_release(struct rebuild *r)
 {
-    const struct pm_surfaces *s = r->from;
-    struct pm_spacing now;
-    enum pm_status status = pm_spacing_of(&s->s[k], &now, err);
-    double wanted = r->o->spacing > 0 ? r->o->spacing : s->pcase.chamber[k - 1].spacing;
-
-    if (status != PM_OK)
-        return status;
-    if (r->o->points > 0)
-        wanted = sqrt(now.area / (sqrt(0.75) * (double)r->o->points));
-    r->spacing[k] = wanted;
-    r->report->spacing_before[k] = now.cv;
-    r->redo[k] = r->o->spacing > 0 || r->o->points > 0 || now.cv > CV_MAX ||
-                 fabs(now.mean / wanted - 1) > SPACING_OFF;
-    return PM_OK;
-}
-
-enum pm_status rebuild_plan(struct rebuild *r, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    const struct pm_surfaces *s = r->from;
-    ptrdiff_t g;
-
-    PM_TRY(pm_exterior_unevenness(&s->s[0], &r->report->spacing_before[0], err));
-    r->redo[0] = r->report->spacing_before[0] > UNEVEN_MAX;
-    for (ptrdiff_t k = 1; k < s->ns; k++)
-        PM_TRY(plan_chamber(r, k, err));
-    for (ptrdiff_t k = 1; k < s->ns; k++) { /* the first of an orbit decides */
-        ptrdiff_t source = 1 + pm_symmetry_source(&s->pcase.symmetry, k - 1, &g);
-        r->redo[k] = r->redo[source];
-        r->spacing[k] = r->spacing[source];
+    for (ptrdiff_t k = 0; k <= PM_MAX_CHAMBERS; k++) {
+        pm_free(r->carried[k]);
+        r->carried[k] = NULL;
     }
-done:
-    return status;
 }
 
-static enum pm_status copy_surface(const struct pm_surface *from, struct pm_surface *to,
-                                   struct pm_err *err)
+static enum pm_status reseed_surface(struct rebuild *r, ptrdiff_t k, struct pm_surfaces *to,
+                                     struct pm_err *err)
 {
     enum pm_status status = PM_OK;
+    const struct pm_surfaces *s = r->from;
+    const struct pm_symmetry *y = &s->pcase.symmetry;
+    const ptrdiff_t g = r->by[k], source = r->source[k];
 
-    *to = (struct pm_surface){
-        .type = from->type, .n = from->n, .nu = from->nu, .nv = from->nv, .nt = from->nt};
-    PM_TRY(PM_NEW(to->phi, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->free, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->Phi, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->d0, to->n, err));
-    PM_TRY(PM_NEW(to->tri, 3 * to->nt, err));
-    memcpy(to->phi, from->phi, 3 * (size_t)to->n * sizeof *to->phi);
-    memcpy(to->free, from->free, 3 * (size_t)to->n);
-    memcpy(to->Phi, from->Phi, 3 * (size_t)to->n * sizeof *to->Phi);
-    memcpy(to->d0, from->d0, (size_t)to->n * sizeof *to->d0);
-    memcpy(to->tri, from->tri, 3 * (size_t)to->nt * sizeof *to->tri);
+    if (!r->redo[k]) {
+        PM_TRY(pm_surface_copy(&s->s[k], &to->s[k], err));
+    } else if (k == 0) {
+        PM_TRY(pm_exterior_spread(&s->s[0], s->pcase.height, r->nu, r->nv, &to->s[0],
+                                  &r->carried[0], err));
+    } else if (source < k) {
+        PM_TRY(pm_symmetry_image(y, g, &to->s[source], &to->s[k], err));
+    } else {
+        PM_TRY(
+            pm_chamber_remesh(s, k, r->method[k], r->spacing[k], &to->s[k], &r->carried[k], err));
+    }
 done:
     return status;
 }
@@ -75,7 +47,6 @@ static enum pm_status reseed(struct rebuild *r, struct pm_surfaces *to, struct p
 {
     enum pm_status status = PM_OK;
     const struct pm_surfaces *s = r->from;
-    const struct pm_symmetry *y = &s->pcase.symmetry;
 
     PM_TRY(pm_case_copy(&s->pcase, &to->pcase, err));
     to->ns = s->ns;
@@ -83,19 +54,11 @@ static enum pm_status reseed(struct rebuild *r, struct pm_surfaces *to, struct p
     PM_TRY(PM_NEW(to->offset, to->ns + 1, err));
     memcpy(to->reference_point, s->reference_point, sizeof to->reference_point);
     for (ptrdiff_t k = 0; k < to->ns; k++) {
-        ptrdiff_t g = 0, source = k > 0 ? 1 + pm_symmetry_source(y, k - 1, &g) : 0;
-        if (k == 0 || !r->redo[k])
-            PM_TRY(copy_surface(&s->s[k], &to->s[k], err));
-        else if (source < k)
-            PM_TRY(pm_symmetry_image(y, g, &to->s[source], &to->s[k], err));
-        else
-            PM_TRY(pm_chamber_remesh(s, k, r->spacing[k], &to->s[k], err));
+        r->blame = r->source[k];
+        PM_TRY(reseed_surface(r, k, to, err));
         to->offset[k + 1] = to->offset[k] + to->s[k].n;
     }
-    pm_free(r->shift);
-    PM_TRY(PM_NEW(r->shift, 2 * s->s[0].n, err));
-    if (r->redo[0])
-        PM_TRY(pm_exterior_relax(&s->s[0], r->shift, err));
+    r->blame = -1;
     /* images of new control points agree to the rounding of f_old */
     PM_TRY(pm_symmetry_find(to, 1e-6 * s->pcase.height, err));
     PM_TRY(pm_symmetrise_reference(to, err));
@@ -103,51 +66,131 @@ done:
     return status;
 }
 
-enum pm_status rebuild_start(const struct rebuild *r, ptrdiff_t k, const struct pm_map *old,
-                             const double S[3], struct pm_basis *work, double out[3],
-                             struct pm_err *err)
+void rebuild_carry(const struct rebuild *r, const struct pm_surface *to, ptrdiff_t k,
+                   ptrdiff_t cuts, double *S)
 {
-    memcpy(out, S, 3 * sizeof *out);
-    return k > 0 ? PM_OK : pm_exterior_start(old, r->shift, S, work, out, err);
+    pm_samples_parameters(to, r->carried[k] != NULL ? r->carried[k] : to->Phi, cuts, S);
+}
+
+/* Samples of one surface, for its fit. */
+struct target {
+    ptrdiff_t nq;
+    double *S;   /* new parameters (nq x 3) */
+    double *old; /* where they lie on the old surface (nq x 3) */
+    double *x;   /* the old surface there (nq x 3) [mm] */
+    double *weight;
+};
+
+static void target_release(struct target *t)
+{
+    pm_free(t->S);
+    pm_free(t->old);
+    pm_free(t->x);
+    pm_free(t->weight);
+}
+
+enum { FIT_CUTS = 2 };
+
+/* The paper matches the control points alone, the others four samples a triangle by their area. */
+static enum pm_status aim(const struct rebuild *r, const struct pm_surface *f,
+                          const struct pm_samples *m, ptrdiff_t k, const struct pm_map *old,
+                          struct target *t, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const int paper = r->method[k] == SURFREMESH_PAPER && k > 0;
+    const double *carried = r->carried[k] != NULL ? r->carried[k] : f->Phi;
+    const ptrdiff_t first = m->first[k];
+    struct pm_basis work = {0};
+
+    t->nq = paper ? f->n : m->first[k + 1] - first;
+    PM_TRY(pm_copy_array(&t->S, paper ? f->Phi : &m->S[3 * first], 3 * t->nq, sizeof *t->S, err));
+    PM_TRY(PM_NEW(t->old, 3 * t->nq, err));
+    PM_TRY(PM_NEW(t->x, 3 * t->nq, err));
+    PM_TRY(PM_NEW(t->weight, t->nq, err));
+    if (paper)
+        memcpy(t->old, carried, 3 * (size_t)t->nq * sizeof *carried);
+    else
+        rebuild_carry(r, f, k, FIT_CUTS, t->old);
+    for (ptrdiff_t q = 0; q < t->nq; q++) {
+        t->weight[q] = paper ? 1 : m->area[first + q];
+        PM_TRY(pm_map_point(old, r->from->s[k].phi, &t->old[3 * q], &work, &t->x[3 * q], NULL, NULL,
+                            err));
+    }
+done:
+    pm_basis_release(&work);
+    return status;
+}
+
+/* The targets become the feet of the fitted surface on the old one: where a sample lies along it
+ * is free. */
+static enum pm_status slide(const struct pm_surface *from, const struct pm_map *old,
+                            const struct pm_surface *f, const struct pm_map *map, struct target *t,
+                            struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_basis work = {0};
+
+    for (ptrdiff_t q = 0; q < t->nq; q++) {
+        double x[3], d;
+        PM_TRY(pm_map_point(map, f->phi, &t->S[3 * q], &work, x, NULL, NULL, err));
+        PM_TRY(pm_distance_project(old, from->type, from->phi, x, &work, &t->old[3 * q],
+                                   &t->x[3 * q], &d, err));
+    }
+done:
+    pm_basis_release(&work);
+    return status;
 }
 
 static enum pm_status fit(const struct rebuild *r, struct pm_surfaces *to,
                           const struct pm_samples *m, ptrdiff_t k, struct pm_err *err)
 {
+    enum { SLIDES = 2 };
     enum pm_status status = PM_OK;
     const struct pm_surface *from = &r->from->s[k];
+    const int paper = r->method[k] == SURFREMESH_PAPER && k > 0;
     struct pm_surface *f = &to->s[k];
     struct pm_map *old = NULL, *map = NULL;
-    struct pm_basis work = {0};
+    struct target t = {0};
     uint8_t *fixed = NULL;
-    ptrdiff_t first = m->first[k], nq = m->first[k + 1] - first;
-    double *x = NULL, S[3], error[2];
+    double error[2];
 
     PM_TRY(pm_map_new(from, &old, err));
     PM_TRY(pm_map_new(f, &map, err));
-    PM_TRY(PM_NEW(x, 3 * nq, err));
     PM_TRY(PM_NEW(fixed, 3 * f->n, err));
     for (ptrdiff_t i = 0; i < 3 * f->n; i++)
         fixed[i] = !f->free[i];
-    for (ptrdiff_t q = 0; q < nq; q++) {
-        PM_TRY(rebuild_start(r, k, old, &m->S[3 * (first + q)], &work, S, err));
-        PM_TRY(pm_map_point(old, from->phi, S, &work, &x[3 * q], NULL, NULL, err));
-    }
-    const struct pm_fit job = {.nq = nq,
-                               .S = &m->S[3 * first],
-                               .weight = &m->area[first],
-                               .target = x,
+    PM_TRY(aim(r, f, m, k, old, &t, err));
+    const long iterations = r->o->iterations > 0 ? r->o->iterations : paper ? 1 : 20;
+    const struct pm_fit job = {.nq = t.nq,
+                               .S = t.S,
+                               .weight = t.weight,
+                               .target = t.x,
                                .alpha = k == 0 ? 1e-3 : r->o->alpha,
-                               .iterations = (int)r->o->iterations,
+                               .iterations = (int)iterations,
                                .fixed = fixed};
     PM_TRY(pm_fit_points(map, f->n, &job, f->phi, error, err));
+    for (int i = 0; i < SLIDES && !paper && r->carried[k] != NULL; i++) {
+        PM_TRY(slide(from, old, f, map, &t, err));
+        PM_TRY(pm_fit_points(map, f->n, &job, f->phi, error, err));
+    }
 done:
     pm_map_free(old);
     pm_map_free(map);
-    pm_basis_release(&work);
-    pm_free(x);
+    target_release(&t);
     pm_free(fixed);
     return status;
+}
+
+/* The control points of an image are those of its source, one by one. */
+static void image(const struct rebuild *r, struct pm_surfaces *to, ptrdiff_t k)
+{
+    const double *Q = to->pcase.symmetry.Q[r->by[k]], *t = to->pcase.symmetry.t[r->by[k]];
+    const double *from = to->s[r->source[k]].phi;
+
+    for (ptrdiff_t i = 0; i < 3 * to->s[k].n; i++) {
+        const double *Qi = &Q[3 * (i % 3)], *x = &from[i / 3 * 3];
+        to->s[k].phi[i] = Qi[0] * x[0] + Qi[1] * x[1] + Qi[2] * x[2] + t[i % 3];
+    }
 }
 
 enum pm_status rebuild_surfaces(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
@@ -156,11 +199,17 @@ enum pm_status rebuild_surfaces(struct rebuild *r, struct pm_surfaces *to, struc
     struct pm_samples m = {0};
     double *phi = NULL;
 
+    rebuild_release(r);
     PM_TRY(reseed(r, to, err));
-    PM_TRY(pm_samples_new(to, HUGE_VAL, 2, &m, err));
-    for (ptrdiff_t k = 0; k < to->ns; k++)
-        if (r->redo[k])
+    PM_TRY(pm_samples_new(to, HUGE_VAL, FIT_CUTS, &m, err));
+    for (ptrdiff_t k = 0; k < to->ns; k++) {
+        r->blame = k;
+        if (r->redo[k] && r->source[k] == k)
             PM_TRY(fit(r, to, &m, k, err));
+        else if (r->redo[k])
+            image(r, to, k);
+    }
+    r->blame = -1;
     PM_TRY(PM_NEW(phi, 3 * to->offset[to->ns], err));
     pm_surfaces_gather(to, phi);
     pm_symmetrise_points(to, phi);

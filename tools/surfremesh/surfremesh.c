@@ -41,18 +41,39 @@ static void keep(struct surfremesh_report *report, ptrdiff_t ns)
     }
 }
 
-/* A chamber whose result misses its old surface is tried again with closer control points, unless
- * the options fix their number. Returns whether there is one. */
+/* A surface whose result misses its old form is tried again with closer control points, unless the
+ * options fix their number. Returns whether there is one. */
 static int refine(struct rebuild *r)
 {
     int any = 0;
 
+    if (r->redo[0] && rebuild_misses(r, 0) && r->from->s[0].spacing[0] > 0) {
+        r->nu += 12;
+        r->nv += r->nv / 7;
+        any = 1;
+    }
     for (ptrdiff_t k = 1; k < r->from->ns; k++)
-        if (r->redo[k] && rebuild_misses(r, k)) {
+        if (r->redo[k] && rebuild_misses(r, k) && r->o->spacing <= 0 && r->o->points <= 0) {
             r->spacing[k] *= 0.85;
             any = 1;
         }
-    return any && r->o->spacing <= 0 && r->o->points <= 0;
+    return any;
+}
+
+/* Leaves the surface to blame, with its images, as it was; the others may still be acceptable.
+ * Returns whether any is left. */
+static int drop(struct rebuild *r)
+{
+    int any = 0;
+
+    if (r->blame < 0)
+        return 0;
+    for (ptrdiff_t k = 0; k < r->from->ns; k++) {
+        if (r->source[k] == r->source[r->blame])
+            r->redo[k] = 0;
+        any |= r->redo[k];
+    }
+    return any;
 }
 
 /* One attempt; a mesher or a map that fails refuses the result, PM_SYSTEM ends the tool. */
@@ -85,11 +106,39 @@ static enum pm_status attempt(struct rebuild *r, struct pm_surfaces *to, struct 
     return PM_OK;
 }
 
+/* Attempts with closer control points, then without the surface that fails. */
+static enum pm_status attempts(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
+{
+    enum { ATTEMPTS = 3 };
+    enum pm_status status = PM_OK;
+    struct surfremesh_report *report = r->report;
+    char dropped[sizeof report->reason] = "";
+
+    for (int i = 0;; i++) {
+        PM_TRY(attempt(r, to, err));
+        report->refused = report->reason[0] != '\0';
+        if (!report->refused)
+            break;
+        if (i + 1 < ATTEMPTS && to->s != NULL && refine(r))
+            continue;
+        if (r->o->spacing > 0 || r->o->points > 0)
+            break;
+        memcpy(dropped, report->reason, sizeof dropped);
+        if (!drop(r))
+            break;
+        pm_warn("surface kept: %s", dropped);
+        i = -1;
+    }
+    if (!report->refused)
+        memcpy(report->reason, dropped, sizeof dropped);
+done:
+    return status;
+}
+
 enum pm_status pm_surfremesh(const struct pm_surfaces *from, const struct surfremesh_opts *o,
                              struct pm_surfaces *to, struct surfremesh_report *report,
                              struct pm_err *err)
 {
-    enum { ATTEMPTS = 3 };
     enum pm_status status = PM_OK;
     struct rebuild r = {.from = from, .o = o, .report = report};
     int any = 0;
@@ -98,20 +147,18 @@ enum pm_status pm_surfremesh(const struct pm_surfaces *from, const struct surfre
     PM_TRY(rebuild_plan(&r, err));
     for (ptrdiff_t k = 0; k < from->ns; k++)
         any |= r.redo[k];
-    if (!any)
+    if (any) {
+        PM_TRY(pm_surfaces_measure(from, &r.before, err));
+        PM_TRY(attempts(&r, to, err));
+    } else {
         pm_log(1, "control points are even, nothing to do");
-    for (int i = 0; any && i < ATTEMPTS; i++) {
-        PM_TRY(attempt(&r, to, err));
-        report->refused = report->reason[0] != '\0';
-        if (!report->refused || to->s == NULL || !refine(&r))
-            break;
     }
     if (!any || report->refused) {
         pm_surfaces_release(to);
         keep(report, from->ns);
     }
 done:
-    pm_free(r.shift);
+    rebuild_release(&r);
     if (status != PM_OK)
         pm_surfaces_release(to);
     return status;

@@ -4,12 +4,19 @@
 #include "common/base/tool.h"
 #include "common/files/surfaces.h"
 
+enum surfremesh_method {
+    SURFREMESH_REMESH,    /* isotropic remeshing; a new parametrisation where anisotropy asks */
+    SURFREMESH_CONFORMAL, /* the same, always with a new parametrisation */
+    SURFREMESH_PAPER,     /* Algorithm 1 of the paper */
+};
+
 struct surfremesh_opts {
-    double spacing; /* of the control points of chambers [mm]; 0: as the case says, and only where
-                       needed */
-    long points;    /* control points per chamber instead; 0: by spacing */
-    double alpha;   /* of the fit */
-    long iterations;
+    double spacing;  /* of the control points of chambers [mm]; 0: as the case says, and only where
+                        needed */
+    long points;     /* control points per chamber instead; 0: by spacing */
+    double alpha;    /* of the fit */
+    long iterations; /* of the fit; 0: 20, the paper's method 1 */
+    enum surfremesh_method method;
     int or_keep; /* a refused result gives the input surfaces unchanged */
 };
 
@@ -20,7 +27,7 @@ struct surfremesh_report {
     int refused;      /* 1: there was a result, and it was not acceptable */
     double *spacing_before,
         *spacing_after;   /* (ns) variation of the spacing; exterior: longest over mean */
-    double *mean, *max;   /* (ns) distance of the new surface from the old one [mm] */
+    double *mean, *max;   /* (ns) distance of new and old surface, both ways [mm] */
     double *volume_ratio; /* (ns) new over old enclosed volume */
 };
 
