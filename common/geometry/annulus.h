@@ -1,6 +1,6 @@
 /* Near conformal map of an annulus of triangles to a cylinder: theta around, psi along, both
  * discrete harmonic with the same positive weights (cotangents, clipped), so that nothing folds in
- * (theta, psi) by Tutte's theorem once theta rises along both rims. */
+ * (theta, psi) by Tutte's theorem once theta rises along both rims [model 6.4]. */
 #ifndef PM_ANNULUS_H
 #define PM_ANNULUS_H
 
