@@ -99,6 +99,8 @@ static enum pm_status append_word(char **text, const char *word, struct pm_err *
 {
     const char *value = strncmp(word, "--", 2) == 0 ? strchr(word, '=') : NULL;
     value = value != NULL ? value + 1 : word;
+    if (value[0] >= '1' && value[0] <= '9' && value[1] == '=')
+        value += 2; /* N=FILE */
     const char *slash = strrchr(value, '/');
     const char *rest = slash != NULL ? slash + 1 : value;
     static const char *const plain =

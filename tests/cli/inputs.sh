@@ -44,6 +44,15 @@ each() {
 refuses surfgen "no case" "$work/none.ini" "$work/none.ini"
 refuses surfgen "bad case" "$work/bad.ini" "$work/bad.ini"
 refuses surfgen "binary case" "$work/mesh.h5" "$work/mesh.h5"
+sed '/^wall *=/d; /^web *=/d; s/^shape = envelope/shape = file/' tests/data/tiny.ini >"$work/file.ini"
+refused 2 "surfgen: a body without its file" "from a file, expected --body" \
+    "$BIN/surfgen" "$work/file.ini" -o "$work/output/x.h5"
+refused 2 "surfgen: a file nobody asks for" "not from a file" \
+    "$BIN/surfgen" tests/data/tiny.ini --body "$work/bad.stl" -o "$work/output/x.h5"
+refused 2 "surfgen: chamber 9" "expected N=FILE" \
+    "$BIN/surfgen" tests/data/tiny.ini --chamber "9=$work/bad.stl" -o "$work/output/x.h5"
+echo "not a surface" >"$work/bad.stl"
+refuses surfgen "not an STL file" "$work/bad.stl" "$work/file.ini" --body "$work/bad.stl"
 each surfremesh surface /surface1/phi @
 each tetmesh surface /surface1/phi @
 each fesolve mesh /mesh/x --load 0 @
