@@ -22,7 +22,7 @@ sound() {
 volume() {
     admesh "$1" | sed -n 's/.*Volume *: *//p'
 }
-for part in body:3 exterior:1 chambers:2 chamber1:1 chamber2:1 mould1:1 mould2:1 core1:1 core2:1; do
+for part in body:3 exterior:1 chambers:2 chamber1:1 chamber2:1 mould1:1 mould2:1 core1:1 core2:1 plate:1; do
     name=${part%:*}
     check "$name" "$export" -q --what "$name" "$work/s.h5" -o "$work/$name.stl"
     check "$name: closed and oriented, ${part#*:} part(s)" sound "$work/$name.stl" "${part#*:}"
@@ -85,6 +85,8 @@ refused 2 "tolerance" "option --tolerance: found 0, expected a number > 0" \
     "$export" --tolerance 0 "$work/s.h5" -o "$out/x.stl"
 refused 2 "clearance" "option --clearance: found 2, expected at most a fifth" \
     "$export" --clearance 2 "$work/s.h5" -o "$out/x.stl"
+refused 2 "plate without prints" "needs prints, found --print-diameter 0" \
+    "$export" --what plate --print-diameter 0 "$work/s.h5" -o "$out/x.stl"
 refused 3 "too fine" "surface 0: edges of 0.001 mm need about" "$export" --size 0.001 "$work/s.h5" -o "$out/x.stl"
 refused 3 "no accepted design" "of kind 'surface', expected 'step'" "$export" --accepted "$work/s.h5" -o "$out/x.stl"
 refused 3 "print that is too large" "no section is as large as the print" \

@@ -80,9 +80,9 @@ static enum pm_status surfexport_mould(const struct pm_common *c, struct pm_err 
     return export_part("mould2", c, err);
 }
 
-static enum pm_status surfexport_core(const struct pm_common *c, struct pm_err *err)
+static enum pm_status surfexport_plate(const struct pm_common *c, struct pm_err *err)
 {
-    return export_part("core1", c, err);
+    return export_part("plate", c, err);
 }
 
 static void test_tool(const struct attempt *a)
@@ -147,7 +147,7 @@ int main(void)
         {"adjsens", adjsens, {"state-0.h5", "work.h5"}},
         {"meshexport", meshexport, {"mesh.h5"}},
         {"surfexport", surfexport_mould, {"surf.h5"}},
-        {"surfexport", surfexport_core, {"surf.h5"}},
+        {"surfexport", surfexport_plate, {"surf.h5"}},
         {"trstep",
          trstep,
          {"surf.h5", "work.h5", "sens-0.h5", "sens-1.h5", "sens-2.h5", "sens-3.h5"}},

@@ -175,6 +175,42 @@ static void test_mould(const struct skin *robot)
     skin_release(&core);
 }
 
+/* Halves, plate and cores fit into each other: nothing pierces. Faces that would touch stand a
+ * thousandth of a millimetre apart. */
+static void test_kit(const struct skin *robot)
+{
+    struct pm_err err = {.status = PM_OK};
+    const struct mould_opts o = {.pull = 1, .wall = 8, .print = 3, .clearance = 0.2, .snap = 1e-3};
+    struct skin kit = {0}, part = {0};
+    struct pm_contact c = {.a = 0};
+    double undercut;
+    for (int k = 0; k < 5; k++) {
+        skin_release(&part);
+        const enum pm_status status = k < 2
+                                          ? mould_half(robot, &o, 1 - 2 * k, &part, &undercut, &err)
+                                      : k == 2 ? mould_plate(robot, &o, 2, &part, &err)
+                                               : mould_core(robot, &o, k - 2, 2, &part, &err);
+        for (ptrdiff_t a = 0; a < part.nn; a++) {
+            part.x[3 * a + 1] -= k == 1 ? 1e-3 : 0;
+            part.x[3 * a + 2] -= k == 2 ? 1e-3 : 0;
+        }
+        ok(status == PM_OK && skin_check(&part, &err) == PM_OK &&
+               skin_extract(&part, INT32_MIN, INT32_MAX, &kit, &err) == PM_OK,
+           "part %d: %s", k, err.text);
+        /* lip, floor, sockets, openings of a radius of 0.5 to 3 */
+        const double block = 28 + 16 + 0.4, outer = block + 8;
+        const double want = outer * outer * 12 - block * block * 4 - 2 * 8 * pi * 1.7 * 1.7;
+        if (k == 2)
+            ok(volume(&part) < want - 2 * 8 * 0.7 && volume(&part) > want - 2 * 8 * pi * 9.1,
+               "plate %.1f mm3, without openings %.1f mm3", volume(&part), want);
+    }
+    ok(pm_collide_pierce(kit.x, kit.nt, kit.tri, &c, &err) == PM_OK, "all of them");
+    ok(c.a < 0, "they fit: %td intersections, first at (%.3f, %.3f, %.3f)", c.pairs, c.at[0],
+       c.at[1], c.at[2]);
+    skin_release(&part);
+    skin_release(&kit);
+}
+
 int main(void)
 {
     static const struct robot_chamber chambers[] = {{{-6, 0, 16}, {4, 4, 11}, 0},
@@ -202,6 +238,7 @@ int main(void)
             worst = fmax(worst, fabs(robot.curvature[robot.tri[3 * t]] * 14 - 1));
     ok(worst < 0.02, "curvature of the cylinder: %g off", worst); /* of the spline, robot.h */
     test_mould(&robot);
+    test_kit(&robot);
     for (ptrdiff_t i = 0; i < s.s[2].n; i++)
         s.s[2].phi[3 * i] -= 9;
     skin_release(&robot);

@@ -22,7 +22,7 @@ sound() {
             split($0, p, ":"); repaired += p[2] }
         END { exit !(seen == 7 && repaired == 0 && open == 0 && n == parts) }' "$work/admesh"
 }
-for part in body:3 chamber1:1 chamber2:1 mould1:1 mould2:1 core1:1 core2:1; do
+for part in body:3 chamber1:1 chamber2:1 mould1:1 mould2:1 core1:1 core2:1 plate:1; do
     name=${part%:*}
     check "$name" "$BIN/surfexport" -q --tolerance 0.2 --what "$name" "$work/s.h5" -o "$work/$name.stl"
     check "$name: closed and oriented" sound "$work/$name.stl" "${part#*:}"

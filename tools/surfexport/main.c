@@ -3,14 +3,15 @@
 #include "tools/surfexport/surfexport.h"
 
 static const struct pm_option options[] = {
-    {"what", 'w', "PART", "body (default), exterior, chambers, chamberN, mould1, mould2 or coreN"},
+    {"what", 'w', "PART",
+     "body (default), exterior, chambers, chamberN, mould1, mould2, coreN or plate"},
     {"size", 's', "MM", "longest edges (default: of the case's mesh)"},
     {"tolerance", 't', "MM", "largest distance of surfaces and triangles (default 0.1)"},
     {"ascii", 0, NULL, "STL as text"},
     {"accepted", 0, NULL, "of a step file take the accepted design, not the proposed one"},
     {"pull", 0, "AXIS", "mould: axis along which the halves part, x or y (default y)"},
     {"mould-wall", 0, "MM", "mould: thickness around the body (default 8)"},
-    {"clearance", 0, "MM", "mould: gap around the pins (default 0.2)"},
+    {"clearance", 0, "MM", "mould: gap around pins, prints and halves (default 0.2)"},
     {"print-diameter", 0, "MM", "core: diameter of the print, 0: none (default 4)"},
     {0}};
 

@@ -21,15 +21,14 @@ static void bounds(const struct skin *s, double low[3], double high[3])
         }
 }
 
-/* The block that leaves `wall` around the body and begins at its base. */
-static enum pm_status block_bounds(const struct skin *body, const struct mould_opts *o,
-                                   double low[3], double high[3], struct pm_err *err)
+enum pm_status mould_block(const struct skin *robot, const struct mould_opts *o, double low[3],
+                           double high[3], struct pm_err *err)
 {
     double base = 0;
-    for (ptrdiff_t t = 0; t < body->nt; t++)
-        if (body->tag[t] == PM_FACE_BASE)
-            base = body->x[3 * body->tri[3 * t] + 2];
-    bounds(body, low, high);
+    for (ptrdiff_t t = 0; t < robot->nt; t++)
+        if (robot->tag[t] == PM_FACE_BASE)
+            base = robot->x[3 * robot->tri[3 * t] + 2];
+    bounds(robot, low, high);
     if (!(low[o->pull] < -o->snap && high[o->pull] > o->snap))
         return pm_fail(err, PM_INPUT, "the plane %c = 0 misses the body, %g to %g mm",
                        "xyz"[o->pull], low[o->pull], high[o->pull]);
@@ -170,7 +169,7 @@ enum pm_status mould_half(const struct skin *robot, const struct mould_opts *o, 
     struct skin body = {0};
     double low[3], high[3];
     PM_TRY(skin_extract(robot, PM_FACE_TIP, PM_FACE_EXTERIOR, &body, err));
-    PM_TRY(block_bounds(&body, o, low, high, err));
+    PM_TRY(mould_block(robot, o, low, high, err));
     skin_drop(&body, PM_FACE_BASE);
     PM_TRY(skin_cut(&body, o->pull, 0, side, o->snap, half, err));
     PM_TRY(undercut_of(robot, o->pull, side, undercut, err));

@@ -12,7 +12,7 @@
 #include "tools/surfexport/build.h"
 #include "tools/surfexport/write.h"
 
-enum part { BODY, EXTERIOR, CHAMBERS, CHAMBER, MOULD, CORE };
+enum part { BODY, EXTERIOR, CHAMBERS, CHAMBER, MOULD, CORE, PLATE };
 
 struct order {
     enum part part;
@@ -27,7 +27,8 @@ static enum pm_status parse_what(const char *what, ptrdiff_t nchambers, struct o
         enum part part;
         int numbered;
     } known[] = {{"body", BODY, 0},       {"exterior", EXTERIOR, 0}, {"chambers", CHAMBERS, 0},
-                 {"chamber", CHAMBER, 1}, {"mould", MOULD, 1},       {"core", CORE, 1}};
+                 {"chamber", CHAMBER, 1}, {"mould", MOULD, 1},       {"core", CORE, 1},
+                 {"plate", PLATE, 0}};
     for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
         const size_t n = strlen(known[k].name);
         const char *digit = what + n;
@@ -41,7 +42,7 @@ static enum pm_status parse_what(const char *what, ptrdiff_t nchambers, struct o
     }
     return pm_fail(err, PM_USAGE,
                    "option --what: found '%s', expected body, exterior, chambers, chamberN, coreN "
-                   "(N from 1 to %td), mould1 or mould2",
+                   "(N from 1 to %td), mould1, mould2 or plate",
                    what, nchambers);
 }
 
@@ -144,6 +145,9 @@ static enum pm_status make(const struct skin *robot, const struct surfexport_opt
     case CORE:
         PM_TRY(mould_core(robot, &o->mould, n, nchambers, s, err));
         break;
+    case PLATE:
+        PM_TRY(mould_plate(robot, &o->mould, nchambers, s, err));
+        break;
     case MOULD:
         PM_TRY(mould_half(robot, &o->mould, n == 1 ? 1 : -1, s, &undercut, err));
         if (undercut > 1e-3)
@@ -209,6 +213,8 @@ enum pm_status surfexport_run(const struct surfexport_opts *opts, const struct p
                        "option --clearance: found %g, expected at most a fifth of "
                        "--mould-wall, %g",
                        opts->mould.clearance, opts->mould.wall / 5));
+    if (strcmp(opts->what, "plate") == 0 && opts->mould.print <= 0)
+        PM_TRY(pm_fail(err, PM_USAGE, "--what plate needs prints, found --print-diameter 0"));
     PM_TRY(load(common->operands[0], opts->accepted, &s, err));
     PM_TRY(parse_what(opts->what, s.ns - 1, &order, err));
     PM_TRY(blame(triangulate(opts, &s, &order, &product, err), common->operands[0], err));

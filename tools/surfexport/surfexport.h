@@ -7,7 +7,7 @@
 #include "tools/surfexport/mould.h"
 
 struct surfexport_opts {
-    const char *what; /* body, exterior, chambers, chamberN, mould1, mould2, coreN */
+    const char *what; /* body, exterior, chambers, chamberN, mould1, mould2, coreN, plate */
     double size;      /* longest edges [mm], 0: of the case */
     double tolerance; /* [mm] */
     int ascii;
