@@ -59,6 +59,7 @@ static const struct key keys[] = {
     {"workspace", "weight_normal", NUMBERS, ANY, AT(c.weight.normal), 3},
     {"workspace", "weight_width", NUMBER, POSITIVE, AT(c.weight.width), 0},
     {"mesh", "size", NUMBER, POSITIVE, AT(c.mesh_size), 0},
+    {"mesh", "extension", WORD_AT(extension)},
     {"constraints", "wall_min", NUMBER, POSITIVE, AT(c.wall_min), 0},
     {"constraints", "curvature_max", NUMBER, POSITIVE, AT(c.curvature_max), 0},
     {"constraints", "cap_min", NUMBER, NOT_NEGATIVE, AT(c.cap_min), 0},
@@ -306,6 +307,7 @@ static void set_defaults(struct pm_case_raw *raw)
                                 .domain = "none",
                                 .form = "boundary",
                                 .reduce = "yes",
+                                .extension = "laplace",
                                 .field = "exact",
                                 .weight = "none",
                                 .weight_on = "position"};

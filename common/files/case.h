@@ -20,6 +20,8 @@ enum pm_shape {
 };
 enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE, PM_BODY_FILE };
 enum pm_domain { PM_DOMAIN_NONE, PM_DOMAIN_CYLINDER, PM_DOMAIN_BOX };
+/* How nodes inside follow those of the surfaces. */
+enum pm_extension_kind { PM_EXTENSION_LAPLACE, PM_EXTENSION_ELASTICITY };
 enum pm_form { PM_FORM_BOUNDARY = 0, PM_FORM_VOLUME = 1 };
 enum pm_weight_kind { PM_WEIGHT_NONE, PM_WEIGHT_BOX, PM_WEIGHT_GAUSSIAN, PM_WEIGHT_HALF_SPACE };
 
@@ -97,6 +99,7 @@ struct pm_case {
     struct pm_weight weight;
     /* [mesh] */
     double mesh_size; /* wanted edge length [mm] */
+    enum pm_extension_kind extension;
     /* [constraints] */
     double wall_min;       /* d_min [mm] */
     double curvature_max;  /* C_max [1/mm] */

@@ -356,6 +356,11 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
     PM_TRY(check_chambers(c, name, err));
     PM_TRY(complete_domain(raw, name, err));
     PM_TRY(pm_case_workspace(raw, name, err));
+    c->extension = PM_EXTENSION_LAPLACE;
+    if (strcmp(raw->extension, "elasticity") == 0)
+        c->extension = PM_EXTENSION_ELASTICITY;
+    else if (strcmp(raw->extension, "laplace") != 0)
+        PM_TRY(bad_word(name, "extension", raw->extension, "laplace or elasticity", err));
     if (c->radius > c->radius_max)
         PM_TRY(pm_fail(err, PM_INPUT,
                        "cannot use '%s': radius in section '[optimisation]' is %g, expected "

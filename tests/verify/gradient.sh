@@ -35,6 +35,16 @@ check "law of Ogden" gradient tet10-blend boundary 2
 # The largest error of a single control point is 2e-6 (differences of a small number).
 check "control points of each surface one by one" gradient tet10-blend volume 1 --points 4
 
+# elastic: the motion of nodes inside by elasticity; half a body, whose cut moves too, is the rule (tiny.ini).
+elastic() {
+    sed '/^size = /a extension = elasticity' tests/data/tiny.ini >"$work/elastic.ini"
+    "$BIN/surfgen" "$work/elastic.ini" -o "$work/elastic.h5" && "$BIN/tetmesh" "$work/elastic.h5" -o "$work/mesh.h5"
+}
+check "elastic extension" elastic
+rm -f "$work"/tet10-blend-volume-*
+check "states, elastic extension" states tet10-blend volume 2
+check "gradient, elastic extension" gradient tet10-blend volume 1
+
 # entries FORM: U, J, V, C one by one make up the aggregated gradient.
 entries() {
     "$BIN/adjsens" --each --form "$1" "$work/tet10-blend-volume-1.h5" "$work/tet10-blend-volume-work.h5" -o "$work/each.h5" &&
