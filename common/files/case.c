@@ -40,6 +40,9 @@ static const struct key keys[] = {
     {"body", "wall", NUMBER, POSITIVE, AT(c.wall), 0},
     {"body", "web", NUMBER, POSITIVE, AT(c.web), 0},
     {"body", "radius", NUMBER, POSITIVE, AT(c.body_radius), 0},
+    {"body", "width", NUMBER, POSITIVE, AT(c.body_width), 0},
+    {"body", "depth", NUMBER, POSITIVE, AT(c.body_depth), 0},
+    {"body", "rounding", NUMBER, POSITIVE, AT(c.body_rounding), 0},
     {"body", "around", INTEGER, POSITIVE, AT(c.around), 0},
     {"body", "rows", INTEGER, POSITIVE, AT(c.rows), 0},
     {"symmetry", "group", WORD_AT(group)},
@@ -84,6 +87,11 @@ static const struct key chamber_keys[] = {
     {"chamber", "spacing", NUMBER, POSITIVE, CHAMBER(c.spacing), 0},
     {"chamber", "section", NUMBERS, POSITIVE, CHAMBER(c.section), 2},
     {"chamber", "turn", NUMBER, ANY, CHAMBER(c.turn), 0},
+    {"chamber", "cells", INTEGER, POSITIVE, CHAMBER(c.cells), 0},
+    {"chamber", "thickness", NUMBER, POSITIVE, CHAMBER(c.thickness), 0},
+    {"chamber", "width", NUMBER, POSITIVE, CHAMBER(c.width), 0},
+    {"chamber", "depth", NUMBER, POSITIVE, CHAMBER(c.depth), 0},
+    {"chamber", "channel", NUMBER, POSITIVE, CHAMBER(c.channel), 0},
     {"chamber", "twist", NUMBER, ANY, CHAMBER(c.twist), 0},
 };
 
@@ -282,6 +290,9 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .wall = NAN,
                                       .web = NAN,
                                       .body_radius = NAN,
+                                      .body_width = NAN,
+                                      .body_depth = NAN,
+                                      .body_rounding = NAN,
                                       .around = 24,
                                       .rows = 48,
                                       .pmin = 0,
@@ -323,7 +334,11 @@ static void set_defaults(struct pm_case_raw *raw)
                                                 .spacing = NAN,
                                                 .section = {NAN, NAN},
                                                 .turn = NAN,
-                                                .twist = NAN};
+                                                .twist = NAN,
+                                                .thickness = NAN,
+                                                .width = NAN,
+                                                .depth = NAN,
+                                                .channel = NAN};
 }
 
 enum pm_status pm_case_parse(const char *text, const char *name, struct pm_case *c,

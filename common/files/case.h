@@ -16,9 +16,10 @@ enum pm_shape {
     PM_SHAPE_ELLIPSOID,
     PM_SHAPE_CAPSULE,
     PM_SHAPE_BELLOWS,
-    PM_SHAPE_FILE
+    PM_SHAPE_FILE,
+    PM_SHAPE_PNEUNET
 };
-enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE, PM_BODY_FILE };
+enum pm_body { PM_BODY_CYLINDER, PM_BODY_ENVELOPE, PM_BODY_FILE, PM_BODY_BOX };
 enum pm_domain { PM_DOMAIN_NONE, PM_DOMAIN_CYLINDER, PM_DOMAIN_BOX };
 /* How nodes inside follow those of the surfaces. */
 enum pm_extension_kind { PM_EXTENSION_LAPLACE, PM_EXTENSION_ELASTICITY };
@@ -50,6 +51,11 @@ struct pm_chamber {
     double section[2]; /* half-axes over radius [1] */
     double turn;       /* of the first half-axis at the middle, in (-pi/2, pi/2] [rad] */
     double twist;      /* over the length, right-handed about z [rad] */
+    /* pneunet: cells on a channel about `center`, flush with their inner sides */
+    long cells;
+    double thickness;    /* of a cell along z [mm] */
+    double width, depth; /* of a cell across and out of the z axis [mm] */
+    double channel;      /* side of the channel [mm] */
 };
 
 /* Angle of the first half-axis at height z over the centre, from +x [rad]. */
@@ -80,7 +86,8 @@ struct pm_case {
     double wall;        /* envelope: distance from the chambers along their normal [mm] */
     double web;         /* envelope: half-width of the web between the chambers [mm] */
     double body_radius; /* cylinder [mm] */
-    long around, rows;  /* control points of the exterior B-spline around and along */
+    double body_width, body_depth, body_rounding; /* box: along x, along y, corners [mm] */
+    long around, rows; /* control points of the exterior B-spline around and along */
     /* chambers, images under the symmetry included */
     ptrdiff_t nchambers;
     struct pm_chamber chamber[PM_MAX_CHAMBERS];

@@ -109,34 +109,43 @@ done:
 
 static enum pm_status complete_body(struct pm_case_raw *raw, const char *name, struct pm_err *err)
 {
+    static const char *const shapes[] = {"cylinder", "envelope", "file", "rounded-box"};
     struct pm_case *c = &raw->c;
-    c->body = PM_BODY_ENVELOPE;
-    if (strcmp(raw->body, "cylinder") == 0)
-        c->body = PM_BODY_CYLINDER;
-    else if (strcmp(raw->body, "file") == 0)
-        c->body = PM_BODY_FILE;
-    else if (raw->body[0] != '\0' && strcmp(raw->body, "envelope") != 0)
-        return bad_word(name, "shape", raw->body, "envelope, cylinder or file", err);
-    if (isnan(c->height))
-        return missing(name, "body", "height", err);
-    if (c->body == PM_BODY_CYLINDER && isnan(c->body_radius))
-        return missing(name, "body", "radius", err);
-    if (c->body == PM_BODY_ENVELOPE && isnan(c->wall))
-        return missing(name, "body", "wall", err);
-    if (c->body != PM_BODY_ENVELOPE && (!isnan(c->wall) || !isnan(c->web)))
-        return pm_fail(err, PM_INPUT,
-                       "cannot use '%s': keys 'wall' and 'web' belong to shape = envelope", name);
-    if (c->body != PM_BODY_CYLINDER && !isnan(c->body_radius))
-        return pm_fail(err, PM_INPUT,
-                       "cannot use '%s': key 'radius' in section '[body]' belongs to shape = "
-                       "cylinder",
-                       name);
-    if (c->body != PM_BODY_ENVELOPE)
-        c->wall = c->web = 0;
-    if (c->body != PM_BODY_CYLINDER)
-        c->body_radius = 0;
+    int shape = raw->body[0] == '\0' ? PM_BODY_ENVELOPE : 0;
+    while (shape < 4 && raw->body[0] != '\0' && strcmp(shapes[shape], raw->body) != 0)
+        shape++;
+    if (shape == 4)
+        return bad_word(name, "shape", raw->body, "envelope, cylinder, rounded-box or file", err);
+    c->body = (enum pm_body)shape;
+    struct {
+        const char *key;
+        double *value;
+        int of, wanted;
+    } use[] = {{"height", &c->height, -1, 1},
+               {"wall", &c->wall, PM_BODY_ENVELOPE, 1},
+               {"web", &c->web, PM_BODY_ENVELOPE, 0},
+               {"radius", &c->body_radius, PM_BODY_CYLINDER, 1},
+               {"width", &c->body_width, PM_BODY_BOX, 1},
+               {"depth", &c->body_depth, PM_BODY_BOX, 1},
+               {"rounding", &c->body_rounding, PM_BODY_BOX, 1}};
+    for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
+        int mine = use[i].of < 0 || use[i].of == shape;
+        if (mine && use[i].wanted && isnan(*use[i].value))
+            return missing(name, "body", use[i].key, err);
+        if (!mine && !isnan(*use[i].value))
+            return pm_fail(err, PM_INPUT,
+                           "cannot use '%s': key '%s' in section '[body]' belongs to shape = %s",
+                           name, use[i].key, shapes[use[i].of]);
+        if (!mine)
+            *use[i].value = 0;
+    }
     if (isnan(c->web))
         c->web = 2 * c->wall;
+    if (c->body == PM_BODY_BOX && 2 * c->body_rounding >= fmin(c->body_width, c->body_depth))
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': rounding is %g, expected less than half of width %g and "
+                       "depth %g",
+                       name, c->body_rounding, c->body_width, c->body_depth);
     if (c->around < 8 || c->rows < 8)
         return pm_fail(err, PM_INPUT,
                        "cannot use '%s': keys 'around' and 'rows' are %ld and %ld, expected "
@@ -168,6 +177,27 @@ static enum pm_status complete_section(struct pm_chamber *c, int r, const char *
     return PM_OK;
 }
 
+static enum pm_status complete_cells(struct pm_chamber *c, int r, const char *name,
+                                     struct pm_err *err)
+{
+    if (!isnan(c->section[0]) || !isnan(c->turn) || !isnan(c->twist))
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': chamber %d has 'section', 'turn' or 'twist', which shape "
+                       "= pneunet does not take",
+                       name, r + 1);
+    if (c->channel >= c->depth || c->channel >= c->width || c->thickness >= c->pitch)
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': chamber %d: expected a channel narrower than the cells "
+                       "and cells thinner than the pitch",
+                       name, r + 1);
+    c->length = (double)(c->cells - 1) * c->pitch + c->thickness;
+    c->radius = c->channel / 2;
+    c->amplitude = 0;
+    if (isnan(c->spacing))
+        c->spacing = c->thickness / 4;
+    return complete_section(c, r, name, err);
+}
+
 /* The keys that the shape of chamber r takes are there, no others. */
 static enum pm_status check_keys(const struct pm_chamber_raw *raw, const char *section,
                                  const char *name, struct pm_err *err)
@@ -175,15 +205,21 @@ static enum pm_status check_keys(const struct pm_chamber_raw *raw, const char *s
     const struct pm_chamber *c = &raw->c;
     int wave = c->shape == PM_SHAPE_BELLOWS, sphere = c->shape == PM_SHAPE_SPHERE;
     int file = c->shape == PM_SHAPE_FILE;
+    int cells = c->shape == PM_SHAPE_PNEUNET;
     const struct {
         const char *key;
         double value;
         int wanted;
     } use[] = {{"center", c->center[0], 1},
-               {"radius", c->radius, !file},
-               {"length", c->length, !sphere && !file},
+               {"radius", c->radius, !file && !cells},
+               {"length", c->length, !sphere && !file && !cells},
                {"amplitude", c->amplitude, wave},
-               {"pitch", c->pitch, wave}};
+               {"pitch", c->pitch, wave || cells},
+               {"cells", c->cells > 0 ? (double)c->cells : nan(""), cells},
+               {"thickness", c->thickness, cells},
+               {"width", c->width, cells},
+               {"depth", c->depth, cells},
+               {"channel", c->channel, cells}};
     for (size_t i = 0; i < sizeof use / sizeof use[0]; i++) {
         if (use[i].wanted && isnan(use[i].value))
             return missing(name, section, use[i].key, err);
@@ -204,23 +240,27 @@ static enum pm_status check_keys(const struct pm_chamber_raw *raw, const char *s
 static enum pm_status complete_chamber(struct pm_chamber_raw *raw, int r, const char *name,
                                        struct pm_err *err)
 {
-    static const char *const shapes[] = {"sphere", "ellipsoid", "capsule", "bellows", "file"};
+    static const char *const shapes[] = {"sphere",  "ellipsoid", "capsule",
+                                         "bellows", "file",      "pneunet"};
     struct pm_chamber *c = &raw->c;
     char section[16] = {'c', 'h', 'a', 'm', 'b', 'e', 'r', (char)('1' + r), '\0'};
     int shape = 0;
-    while (shape < 5 && strcmp(shapes[shape], raw->shape) != 0)
+    while (shape < 6 && strcmp(shapes[shape], raw->shape) != 0)
         shape++;
     if (raw->shape[0] == '\0')
         return missing(name, section, "shape", err);
-    if (shape == 5)
-        return bad_word(name, "shape", raw->shape, "sphere, ellipsoid, capsule, bellows or file",
-                        err);
+    if (shape == 6)
+        return bad_word(name, "shape", raw->shape,
+                        "sphere, ellipsoid, capsule, bellows, pneunet or file", err);
     c->shape = (enum pm_shape)shape;
     enum pm_status status = check_keys(raw, section, name, err);
     if (status != PM_OK)
         return status;
     int wave = c->shape == PM_SHAPE_BELLOWS, sphere = c->shape == PM_SHAPE_SPHERE;
     int file = c->shape == PM_SHAPE_FILE;
+    if (c->shape == PM_SHAPE_PNEUNET)
+        return complete_cells(c, r, name, err);
+    c->thickness = c->width = c->depth = c->channel = 0;
     if (sphere)
         c->length = 2 * c->radius;
     if (!wave)
@@ -265,9 +305,40 @@ static enum pm_status complete_chambers(struct pm_case_raw *raw, const char *nam
     return pm_case_images(c, name, err);
 }
 
+/* The body that follows cells is made for limbs that are images of each other around the axis, the
+ * first one on +x. */
+static enum pm_status check_limbs(const struct pm_case *c, const char *name, struct pm_err *err)
+{
+    const struct pm_chamber *a = &c->chamber[0];
+    int good = c->nchambers <= 3 && c->body == PM_BODY_ENVELOPE && fabs(a->center[1]) < slack &&
+               a->center[0] > slack && fabs(a->center[2] - c->height / 2) < slack;
+    for (ptrdiff_t r = 0; r < c->nchambers; r++) {
+        const struct pm_chamber *b = &c->chamber[r];
+        double angle = 2 * PI * (double)r / (double)c->nchambers;
+        int there = 0;
+        for (ptrdiff_t s = 0; s < c->nchambers; s++)
+            there |= hypot(c->chamber[s].center[0] - a->center[0] * cos(angle),
+                           c->chamber[s].center[1] - a->center[0] * sin(angle)) < 1e-9 * c->height;
+        good = good && there && b->shape == a->shape && b->cells == a->cells &&
+               b->pitch == a->pitch && b->thickness == a->thickness && b->width == a->width &&
+               b->depth == a->depth && b->channel == a->channel;
+    }
+    return good ? PM_OK
+                : pm_fail(err, PM_INPUT,
+                          "cannot use '%s': shape = pneunet with %td chambers, expected 1 to 3 "
+                          "equal limbs around the z axis in an envelope, half-way up, the first "
+                          "one at y = 0, x > 0",
+                          name, c->nchambers);
+}
+
 /* The chambers lie in the body and do not touch each other. */
 static enum pm_status check_chambers(const struct pm_case *c, const char *name, struct pm_err *err)
 {
+    int limbs = 0;
+    for (ptrdiff_t r = 0; r < c->nchambers; r++)
+        limbs |= c->chamber[r].shape == PM_SHAPE_PNEUNET;
+    if (limbs && check_limbs(c, name, err) != PM_OK)
+        return PM_INPUT;
     for (ptrdiff_t r = 0; r < c->nchambers; r++) {
         const struct pm_chamber *k = &c->chamber[r];
         double low = k->center[2] - k->length / 2, high = k->center[2] + k->length / 2;
@@ -289,7 +360,7 @@ static enum pm_status check_chambers(const struct pm_case *c, const char *name, 
                            "cannot use '%s': chamber %td reaches to radius %g, expected at "
                            "most body radius - wall_min = %g",
                            name, r + 1, reach, c->body_radius - c->wall_min);
-        for (ptrdiff_t s = 0; s < r; s++) {
+        for (ptrdiff_t s = 0; !limbs && s < r; s++) {
             const struct pm_chamber *o = &c->chamber[s];
             double gap = hypot(k->center[0] - o->center[0], k->center[1] - o->center[1]) -
                          outer_radius(k) - outer_radius(o);
@@ -346,11 +417,13 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
         PM_TRY(missing(name, "case", "name", err));
     PM_TRY(complete_material(raw, name, err));
     int has_body = raw->body[0] != '\0' || !isnan(c->height) || !isnan(c->wall) || !isnan(c->web) ||
-                   !isnan(c->body_radius);
+                   !isnan(c->body_radius) || !isnan(c->body_width) || !isnan(c->body_depth) ||
+                   !isnan(c->body_rounding);
     if (raw->listed != 0 || has_body)
         PM_TRY(complete_body(raw, name, err));
     else
-        c->height = c->wall = c->web = c->body_radius = 0;
+        c->height = c->wall = c->web = c->body_radius = c->body_width = c->body_depth =
+            c->body_rounding = 0;
     PM_TRY(pm_case_group(raw->group, c->height, &c->symmetry, name, err));
     PM_TRY(complete_chambers(raw, name, err));
     PM_TRY(check_chambers(c, name, err));

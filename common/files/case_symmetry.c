@@ -138,7 +138,9 @@ static int same_shape(const struct pm_chamber *a, const struct pm_chamber *b)
     const int round = a->section[0] == a->section[1];
     return a->shape == b->shape && a->radius == b->radius && a->length == b->length &&
            a->amplitude == b->amplitude && a->pitch == b->pitch && a->spacing == b->spacing &&
-           a->section[0] == b->section[0] && a->section[1] == b->section[1] &&
+           a->cells == b->cells && a->thickness == b->thickness && a->width == b->width &&
+           a->depth == b->depth && a->channel == b->channel && a->section[0] == b->section[0] &&
+           a->section[1] == b->section[1] &&
            (round ||
             (fabs(remainder(a->turn - b->turn, PI)) < 1e-9 && fabs(a->twist - b->twist) < 1e-9));
 }

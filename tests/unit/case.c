@@ -11,6 +11,10 @@
     "[chamber1]\nshape = bellows\ncenter = 16.4, 0, 50\nradius = 10\nlength = 90\n"                \
     "amplitude = 2\npitch = 18\n"
 
+#define CELLS                                                                                      \
+    "[chamber1]\nshape = pneunet\ncenter = 6, 4, 50\ncells = 5\npitch = 13\nwidth = 12\n"          \
+    "depth = 12\nchannel = 4\n"
+
 static void test_reference(void)
 {
     struct pm_case c;
@@ -194,6 +198,14 @@ static void test_refusals(void)
         {HEAD CHAMBER "[constraints]\ndomain_radius = 30\n",
          "key 'domain_radius' in section '[constraints]' is not one of domain = none"},
         {HEAD CHAMBER, "measure 2T with 1 chambers, expected 2"},
+        {HEAD CHAMBER "cells = 3\n", "key 'cells' in section '[chamber1]' is not one of shape"},
+        {HEAD CELLS, "key 'thickness' in section '[chamber1]' is missing"},
+        {HEAD CELLS "thickness = 14\n", "cells thinner than the pitch"},
+        {HEAD CELLS "thickness = 5\nturn = 3\n", "which shape = pneunet does not take"},
+        {HEAD CELLS "thickness = 5\n[symmetry]\ngroup = mirror-y\n",
+         "shape = pneunet with 2 chambers, expected 1 to 3 equal limbs"},
+        {HEAD CHAMBER "[body]\nwidth = 3\n",
+         "'width' in section '[body]' belongs to shape = rounded"},
         {HEAD CHAMBER "[symmetry]\ngroup = mirror-x\n[actuation]\npmax = -1\n",
          "pmax is -1, expected more than pmin = 0"},
         {HEAD "[chamber1]\nshape = sphere\ncenter = 5, 0, 50\nradius = 10\n[symmetry]\ngroup = "

@@ -7,6 +7,7 @@
 #include "common/geometry/check.h"
 #include "common/geometry/symmetry.h"
 #include "tests/tap.h"
+#include "tools/surfgen/pneunet.h"
 
 static const char *const MIRRORS =
     "[case]\nname = two\n[material]\nlaw = neo-hookean\nmu = 1\n"
@@ -195,6 +196,64 @@ static void helix(void)
     pm_case_release(&c);
 }
 
+/* Walls of a box with two elliptic chambers: 20 - (10 + 1.1 6) outside, 12 - 0.9 6 = 6.6 aside. */
+static void box(void)
+{
+    static const char text[] =
+        "[case]\nname = box\n[material]\nmu = 1\n[body]\nshape = rounded-box\nheight = 60\n"
+        "width = 40\ndepth = 24\nrounding = 4\nrows = 12\n[chamber1]\nshape = capsule\n"
+        "center = 10, 0, 30\nradius = 6\nlength = 50\nsection = 1.1, 0.9\n"
+        "[symmetry]\ngroup = mirror-x mirror-y\n";
+    struct pm_surfgen_report fit;
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0};
+
+    ok(pm_case_parse(text, "box", &c, &err) == PM_OK && pm_surfgen(&c, &s, &fit, &err) == PM_OK,
+       "rounded box %s", err.text);
+    near_abs("wall of the box [mm]", fit.check.wall.distance, 3.4, fit.max[0] + fit.max[1]);
+    pm_surfaces_release(&s);
+    pm_case_release(&c);
+}
+
+/* The limb of cells: places on its parts, the symmetry of halves, tables. */
+static void cells(void)
+{
+    const struct pm_chamber c = {.shape = PM_SHAPE_PNEUNET,
+                                 .length = 32.7,
+                                 .pitch = 13.6,
+                                 .cells = 3,
+                                 .thickness = 5.5,
+                                 .width = 13,
+                                 .depth = 13,
+                                 .channel = 4};
+    struct pm_pneunet *net = NULL;
+    struct pm_err err = {0};
+    double x[3], y[3], s[1001], r[1001];
+
+    if (!ok(pm_pneunet_cavity(&c, &net, &err) == PM_OK, "limb %s", err.text))
+        return;
+    ok(pm_pneunet_parts(net) == 10, "3 parts at each end, 2 for each gap");
+    pm_pneunet_point(net, 0, 0.3, x);
+    near_abs("the pole is one point [mm]", x[2], -16.35, 1e-12);
+    pm_pneunet_point(net, 5, 0, x); /* middle cell, outer side: -2 - 1.6 + 13 */
+    near_abs("outer side of a cell [mm]", x[0], 9.4, 1e-12);
+    near_abs("middle of the middle cell [mm]", x[2], 0, 1e-12);
+    pm_pneunet_point(net, 4, 0, x);
+    near_abs("outer side of the channel [mm]", x[0], 2, 1e-12);
+    near_abs("middle of the gap [mm]", x[2], -6.8, 1e-12);
+    pm_pneunet_point(net, 4.5, 0.1, x);
+    pm_pneunet_point(net, 5.5, 0.9, y);
+    near_abs("halves are mirror images: x [mm]", y[0], x[0], 1e-12);
+    near_abs("halves are mirror images: y [mm]", y[1], -x[1], 1e-12);
+    near_abs("halves are mirror images: z [mm]", y[2], -x[2], 1e-12);
+    pm_pneunet_table(net, 100, s, r);
+    /* Perimeter of 4 by 4 with corners of 1.8, by 96 chords. */
+    near_abs("circumference of the channel [mm]", 2 * acos(-1.0) * r[400],
+             16 - (8 - 2 * acos(-1.0)) * 1.8, 0.05);
+    pm_pneunet_free(net);
+}
+
 /* A mirror reverses a twist and turns an ellipse: what it lists twice must agree. */
 static void refuse_image(const char *change, const char *why)
 {
@@ -249,6 +308,8 @@ int main(void)
     compare(SELF, "chambers that are their own images", 2, 1e-13);
     helix();
     tips();
+    box();
+    cells();
     refuse("wall = 3", "wall = 2.5", "wall between");
     refuse_image("section = 1.2, 0.8\ntwist = 30\n", "same shape, turn and twist");
     refuse_image("section = 1.2, 0.8\nturn = 30\n", "same shape, turn and twist");

@@ -7,12 +7,11 @@
 
 /* nu x nv control points without places: Phi, free, triangulation. */
 enum pm_status pm_body_grid(const struct pm_case *c, struct pm_surface *s, struct pm_err *err);
-/* nu x nv control points on the outlines (unfitted), v linear in z, rims in z = 0 and z = H. Fixed:
- * the rim rows, and z of the rows next to them. */
+/* nu x nv control points on the outlines (unfitted), v linear in z (around cells in arc length),
+ * rims in z = 0 and z = H. Fixed: the rim rows, and z of the rows next to them. */
 enum pm_status pm_body_seed(const struct pm_case *c, const struct pm_outline *o,
                             struct pm_surface *s, struct pm_err *err);
 /* The wanted point over S = (cos t, sin t, v). */
-void pm_body_point(const struct pm_case *c, const struct pm_outline *o, const double S[3],
-                   double x[3]);
+void pm_body_point(const struct pm_outline *o, const double S[3], double x[3]);
 
 #endif

@@ -43,6 +43,8 @@ static double bend(const struct pm_profile *p, ptrdiff_t i)
     ptrdiff_t j = i > 0 ? i : 1;
     double slope = fabs(p->z[j + 1] - p->z[j - 1]) / (p->s[j + 1] - p->s[j - 1]);
 
+    if (p->net != NULL) /* of edges the case knows; the first two parts end in the pole */
+        return i < 2 * PM_NET_FINE ? HUGE_VAL : TWO_PI / 14 * p->r[i];
     return fmin(ALONG * circle(p, i, 4), slope > 0 ? TWO_PI / 14 * p->r[j] / slope : HUGE_VAL);
 }
 
@@ -97,14 +99,14 @@ static double at_count(const struct pm_profile *p, const struct density *d, doub
 static ptrdiff_t plan(const struct pm_profile *p, const struct density *d, ptrdiff_t multiple,
                       ptrdiff_t nrings, struct ring *ring)
 {
-    double length = p->s[p->n - 1], total = d->count[p->n - 1], r, z, psi, h;
+    double length = p->s[p->n - 1], total = d->count[p->n - 1], r, psi, h;
     ptrdiff_t n = 1;
 
     for (ptrdiff_t b = 0; b < nrings; b++) {
         ptrdiff_t lower = b < nrings - 1 - b ? b : nrings - 1 - b;
         double s = at_count(p, d, total * (double)(lower + 1) / (double)(nrings + 1), &h);
         s = 2 * lower + 1 == nrings ? length / 2 : s;
-        pm_profile_at_arc(p, s, &r, &z, &psi);
+        pm_profile_at_arc(p, s, &r, &psi);
         ring[b].s = b == lower ? s : length - s;
         ring[b].phase = b % 2 == 0 ? 0 : 0.5;
         ring[b].first = n;
@@ -118,16 +120,15 @@ static ptrdiff_t plan(const struct pm_profile *p, const struct density *d, ptrdi
 static void place(const struct pm_chamber *c, const struct pm_profile *p, const struct ring *ring,
                   struct pm_surface *s)
 {
-    double r, z, psi;
+    double r, psi, at = pm_profile_at_arc(p, ring->s, &r, &psi);
 
-    pm_profile_at_arc(p, ring->s, &r, &z, &psi);
     for (ptrdiff_t a = 0; a < ring->n; a++) {
         double t = TWO_PI * ((double)a + ring->phase) / (double)ring->n;
         double *P = &s->Phi[3 * (ring->first + a)], *x = &s->phi[3 * (ring->first + a)];
         P[0] = cos(p->angle + t) / cosh(psi);
         P[1] = sin(p->angle + t) / cosh(psi);
         P[2] = tanh(psi);
-        pm_profile_around(p, r, z, t / TWO_PI, x);
+        pm_profile_around(p, at, t / TWO_PI, x);
         for (int j = 0; j < 3; j++)
             x[j] += c->center[j];
     }
@@ -210,8 +211,9 @@ enum pm_status pm_chamber_seed(const struct pm_chamber *c, const struct pm_profi
     PM_TRY(reserve(s, err));
     for (ptrdiff_t pole = 0; pole < 2; pole++) {
         double *x = &s->phi[pole * 3 * (s->n - 1)];
-        memcpy(x, c->center, 3 * sizeof *x);
-        x[2] += pole ? p->z[p->n - 1] : p->z[0];
+        pm_profile_around(p, pole ? (double)(p->n - 1) : 0, 0, x);
+        for (int j = 0; j < 3; j++)
+            x[j] += c->center[j];
         s->Phi[pole * 3 * (s->n - 1) + 2] = pole ? 1 : -1;
     }
     for (ptrdiff_t b = 0; b < nrings; b++)

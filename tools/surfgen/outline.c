@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/base/memory.h"
+#include "tools/surfgen/pneunet.h"
 #include "tools/surfgen/profile.h"
 
 static const double TWO_PI = 6.283185307179586476925;
@@ -17,6 +18,8 @@ static const double ROUND = 2.0;  /* least radius of a neck of the body [mm] */
 struct pm_outline {
     double height;
     double *xy; /* (LEVELS x POINTS x 2) [mm] */
+    struct pm_pneunet *net;
+    double *s; /* arc length at tau = i / FINE (FINE * parts + 1) [mm] */
 };
 
 /* Distance of p from a part with its gradient: f, df/dx, df/dy. */
@@ -68,6 +71,23 @@ static struct level section(const struct pm_case *c, const struct pm_chamber *k,
                           {e[0] * f.d[0] - e[1] * f.d[1], e[1] * f.d[0] + e[0] * f.d[1]}};
 }
 
+static struct level box(const double p[2], double width, double depth, double rounding)
+{
+    double q[2] = {fabs(p[0]) - width / 2 + rounding, fabs(p[1]) - depth / 2 + rounding};
+    int side = q[0] > q[1] ? 0 : 1;
+    double d[2] = {fmax(q[0], 0), fmax(q[1], 0)}, len = hypot(d[0], d[1]);
+
+    if (q[1 - side] <= 0) {
+        len = q[side];
+        d[side] = 1;
+        d[1 - side] = 0;
+    } else {
+        d[0] /= len;
+        d[1] /= len;
+    }
+    return (struct level){len - rounding, {copysign(d[0], p[0]), copysign(d[1], p[1])}};
+}
+
 static struct level web(const double p[2], const double end[2], double half)
 {
     double len2 = end[0] * end[0] + end[1] * end[1];
@@ -94,6 +114,8 @@ static struct level body(const struct pm_case *c, const double *radius, double z
 
     if (c->body == PM_BODY_CYLINDER)
         return disc(p, (const double[2]){0, 0}, c->body_radius);
+    if (c->body == PM_BODY_BOX)
+        return box(p, c->body_width, c->body_depth, c->body_rounding);
     for (ptrdiff_t k = 0; k < c->nchambers; k++) {
         struct level own = section(c, &c->chamber[k], radius[k], z, p);
         int seen = 0;
@@ -228,6 +250,23 @@ static void resample(const double *path, ptrdiff_t n, double *out)
     }
 }
 
+static enum pm_status around_cells(const struct pm_case *c, struct pm_outline *o,
+                                   struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double *r = NULL;
+    ptrdiff_t n;
+
+    PM_TRY(pm_pneunet_body(c, &o->net, err));
+    n = FINE * pm_pneunet_parts(o->net) + 1;
+    PM_TRY(PM_NEW(o->s, n, err));
+    PM_TRY(PM_NEW(r, n, err));
+    pm_pneunet_table(o->net, FINE, o->s, r);
+done:
+    pm_free(r);
+    return status;
+}
+
 enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -237,6 +276,11 @@ enum pm_status pm_outline_new(const struct pm_case *c, struct pm_outline **out, 
     *out = NULL;
     PM_TRY(PM_NEW(o, 1, err));
     o->height = c->height;
+    if (c->nchambers > 0 && c->chamber[0].shape == PM_SHAPE_PNEUNET) {
+        PM_TRY(around_cells(c, o, err));
+        *out = o;
+        return PM_OK;
+    }
     PM_TRY(PM_NEW(o->xy, 2 * LEVELS * POINTS, err));
     PM_TRY(PM_NEW(path, 2 * MAX_STEPS, err));
     PM_TRY(PM_NEW(table, PM_MAX_CHAMBERS * LEVELS, err));
@@ -276,12 +320,36 @@ void pm_outline_free(struct pm_outline *o)
     if (o == NULL)
         return;
     pm_free(o->xy);
+    pm_free(o->s);
+    pm_pneunet_free(o->net);
     pm_free(o);
 }
 
-void pm_outline_point(const struct pm_outline *o, double turn, double z, double x[3])
+int pm_outline_is_level(const struct pm_outline *o)
 {
-    double l = fmin(fmax(z / o->height, 0), 1) * (LEVELS - 1), a = (turn - floor(turn)) * POINTS;
+    return o->net == NULL;
+}
+
+static void beside_cells(const struct pm_outline *o, double turn, double v, double x[3])
+{
+    ptrdiff_t lo = 0, hi = FINE * pm_pneunet_parts(o->net);
+    double s = fmin(fmax(v, 0), 1) * o->s[hi];
+
+    while (hi - lo > 1) {
+        ptrdiff_t mid = (lo + hi) / 2;
+        *(o->s[mid] <= s ? &lo : &hi) = mid;
+    }
+    pm_pneunet_point(o->net, ((double)lo + (s - o->s[lo]) / (o->s[hi] - o->s[lo])) / FINE, turn, x);
+    x[2] += o->height / 2;
+}
+
+void pm_outline_point(const struct pm_outline *o, double turn, double v, double x[3])
+{
+    if (o->net != NULL) {
+        beside_cells(o, turn, v, x);
+        return;
+    }
+    double l = fmin(fmax(v, 0), 1) * (LEVELS - 1), a = (turn - floor(turn)) * POINTS;
     ptrdiff_t i = (ptrdiff_t)fmin(l, LEVELS - 2), j = (ptrdiff_t)a % POINTS;
     double w = l - (double)i, u = a - floor(a);
 
@@ -290,5 +358,5 @@ void pm_outline_point(const struct pm_outline *o, double turn, double z, double 
         ptrdiff_t p = 2 * j, q = 2 * ((j + 1) % POINTS);
         x[k] = (1 - w) * ((1 - u) * low[p] + u * low[q]) + w * ((1 - u) * high[p] + u * high[q]);
     }
-    x[2] = z;
+    x[2] = o->height * v;
 }

@@ -15,8 +15,10 @@ static double cap_height(const struct pm_chamber *c)
         return c->radius;
     case PM_SHAPE_BELLOWS:
         return 0.6 * c->radius;
-    default: /* sphere, ellipsoid: nothing but caps */
-        return c->shape == PM_SHAPE_SPHERE ? c->radius : c->length / 2;
+    case PM_SHAPE_SPHERE:
+        return c->radius;
+    default: /* ellipsoid: nothing but caps */
+        return c->length / 2;
     }
 }
 
@@ -93,7 +95,7 @@ static void integrate(struct pm_profile *p)
 {
     ptrdiff_t mid = p->n / 2;
 
-    for (ptrdiff_t i = 1; i < p->n; i++)
+    for (ptrdiff_t i = 1; p->net == NULL && i < p->n; i++)
         p->s[i] = p->s[i - 1] + hypot(p->r[i] - p->r[i - 1], p->z[i] - p->z[i - 1]);
     for (ptrdiff_t i = mid + 1; i < p->n; i++) { /* r is linear in s on a segment */
         double a = p->mean * p->r[i - 1], b = p->mean * p->r[i], ds = p->s[i] - p->s[i - 1];
@@ -122,24 +124,29 @@ enum pm_status pm_profile_new(const struct pm_chamber *c, struct pm_profile *p, 
 
     memset(p, 0, sizeof *p);
     PM_TRY(check(c, err));
-    half = (ptrdiff_t)fmin(1e5, 1000 + 50 * fmax(c->length, c->radius));
+    if (c->shape == PM_SHAPE_PNEUNET)
+        PM_TRY(pm_pneunet_cavity(c, &p->net, err));
+    half = p->net != NULL ? PM_NET_FINE * pm_pneunet_parts(p->net) / 2
+                          : (ptrdiff_t)fmin(1e5, 1000 + 50 * fmax(c->length, c->radius));
     p->n = 2 * half + 1;
     PM_TRY(PM_NEW(p->r, p->n, err));
     PM_TRY(PM_NEW(p->z, p->n, err));
     PM_TRY(PM_NEW(p->s, p->n, err));
     PM_TRY(PM_NEW(p->psi, p->n, err));
-    for (ptrdiff_t i = 0; i <= half; i++) {
+    for (ptrdiff_t i = 0; p->net == NULL && i <= half; i++) {
         ptrdiff_t j = p->n - 1 - i;
         lower_half(c, (double)i / (double)half, &p->r[i], &p->z[i]);
         p->r[j] = p->r[i];
         p->z[j] = -p->z[i];
     }
-    p->z[half] = 0;
-    p->round = c->section[0] == 1 && c->section[1] == 1;
+    if (p->net != NULL)
+        pm_pneunet_table(p->net, PM_NET_FINE, p->s, p->r);
+    p->r[0] = p->r[p->n - 1] = p->z[half] = 0;
+    p->round = c->section[0] == 1 && c->section[1] == 1 && p->net == NULL;
     p->angle = p->round ? 0 : pm_chamber_angle(c, 0);
     p->twist = p->round ? 0 : c->twist / c->length;
     p->mean = quarter_ellipse(c->section[0], c->section[1], p->quarter);
-    p->mean = p->round ? 1 : p->mean;
+    p->mean = p->round || p->net != NULL ? 1 : p->mean;
     integrate(p);
 done:
     if (status != PM_OK)
@@ -149,6 +156,7 @@ done:
 
 void pm_profile_release(struct pm_profile *p)
 {
+    pm_pneunet_free(p->net);
     pm_free(p->r);
     pm_free(p->z);
     pm_free(p->s);
@@ -168,34 +176,51 @@ static ptrdiff_t segment(const double *table, ptrdiff_t n, double v)
     return lo;
 }
 
-void pm_profile_at_arc(const struct pm_profile *p, double s, double *r, double *z, double *psi)
+double pm_profile_at_arc(const struct pm_profile *p, double s, double *r, double *psi)
 {
     ptrdiff_t i = segment(p->s, p->n, s);
     double w = (s - p->s[i]) / (p->s[i + 1] - p->s[i]);
 
     *r = (1 - w) * p->r[i] + w * p->r[i + 1];
-    *z = (1 - w) * p->z[i] + w * p->z[i + 1];
     *psi = w <= 0 ? p->psi[i] : w >= 1 ? p->psi[i + 1] : (1 - w) * p->psi[i] + w * p->psi[i + 1];
+    return (double)i + w;
 }
 
-void pm_profile_around(const struct pm_profile *p, double r, double z, double u, double x[3])
+/* The point of the section of radius 1, by arc length. */
+static void section(const struct pm_profile *p, double u, double q[2])
 {
-    double f = 4 * (u - floor(u)), a = p->angle + p->twist * z, q[2];
+    double f = 4 * (u - floor(u));
     ptrdiff_t side = (ptrdiff_t)fmin(f, 3);
     double v = PM_SECTION_PARTS * (side % 2 == 0 ? f - (double)side : (double)side + 1 - f);
     ptrdiff_t k = (ptrdiff_t)fmin(v, PM_SECTION_PARTS - 1);
 
-    x[2] = z;
+    for (int j = 0; j < 2; j++)
+        q[j] = p->quarter[2 * k + j] +
+               (v - (double)k) * (p->quarter[2 * k + 2 + j] - p->quarter[2 * k + j]);
+    q[0] = side == 1 || side == 2 ? -q[0] : q[0];
+    q[1] = side >= 2 ? -q[1] : q[1];
+}
+
+void pm_profile_around(const struct pm_profile *p, double at, double u, double x[3])
+{
+    ptrdiff_t i = (ptrdiff_t)fmin(at, (double)(p->n - 2));
+    double w = at - (double)i, r = (1 - w) * p->r[i] + w * p->r[i + 1], a, q[2];
+
+    x[2] = (1 - w) * p->z[i] + w * p->z[i + 1];
+    a = p->angle + p->twist * x[2];
     if (p->round) {
         x[0] = r * cos(2 * PI * u);
         x[1] = r * sin(2 * PI * u);
         return;
     }
-    for (int j = 0; j < 2; j++)
-        q[j] = r * (p->quarter[2 * k + j] +
-                    (v - (double)k) * (p->quarter[2 * k + 2 + j] - p->quarter[2 * k + j]));
-    q[0] = side == 1 || side == 2 ? -q[0] : q[0];
-    q[1] = side >= 2 ? -q[1] : q[1];
+    if (p->net != NULL) {
+        pm_pneunet_point(p->net, at / PM_NET_FINE, u, x);
+        memcpy(q, x, sizeof q);
+    } else {
+        section(p, u, q);
+        q[0] *= r;
+        q[1] *= r;
+    }
     x[0] = cos(a) * q[0] - sin(a) * q[1];
     x[1] = sin(a) * q[0] + cos(a) * q[1];
 }
@@ -214,12 +239,5 @@ void pm_profile_point(const struct pm_profile *p, const double S[3], double x[3]
         w = isfinite(b) ? exp(psi - b) : exp(a - psi);
         w = isfinite(b) ? w : 1 - w;
     }
-    x[2] = (1 - w) * p->z[i] + w * p->z[i + 1];
-    w = (1 - w) * p->r[i] + w * p->r[i + 1];
-    if (!p->round) {
-        pm_profile_around(p, w, x[2], (atan2(S[1], S[0]) - p->angle) / (2 * PI), x);
-        return;
-    }
-    x[0] = rho > 0 ? w * S[0] / rho : 0;
-    x[1] = rho > 0 ? w * S[1] / rho : 0;
+    pm_profile_around(p, (double)i + w, (atan2(S[1], S[0]) - p->angle) / (2 * PI), x);
 }

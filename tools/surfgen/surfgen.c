@@ -103,7 +103,7 @@ done:
 static void target(const struct plan *p, ptrdiff_t k, const double S[3], double x[3])
 {
     if (k == 0) {
-        pm_body_point(p->c, p->outline, S, x);
+        pm_body_point(p->outline, S, x);
         return;
     }
     pm_profile_point(&p->profile[k - 1], S, x);
@@ -147,8 +147,8 @@ done:
     return status;
 }
 
-/* Fits surface k to its shape. The heights of the exterior's rows are exact already: z is linear in
- * v. */
+/* Fits surface k to its shape. The heights of the exterior's rims are exact already, and those of
+ * all rows where z is linear in v. */
 static enum pm_status fit(const struct plan *p, struct pm_surfaces *s, const struct pm_samples *m,
                           ptrdiff_t k, struct pm_err *err)
 {
@@ -169,7 +169,8 @@ static enum pm_status fit(const struct plan *p, struct pm_surfaces *s, const str
          q++) /* not the area: regularisation would win where it is small */
         weight[q] = 1;
     for (ptrdiff_t i = 0; i < f->n; i++)
-        fixed[3 * i + 2] = k == 0;
+        fixed[3 * i + 2] =
+            k == 0 && (pm_outline_is_level(p->outline) || i < f->nu || i >= f->n - f->nu);
     const struct pm_fit job = {
         .nq = nq,
         .S = &m->S[3 * first],
