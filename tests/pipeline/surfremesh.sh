@@ -16,4 +16,6 @@ expect 0 "or keep" "$BIN/surfremesh" "$work/s.h5" --points 60 --or-keep -o "$wor
 check "says so" grep -q "surfaces kept: " "$work/err"
 check "unchanged" h5diff "$work/s.h5" "$work/kept.h5" /surface1 /surface1
 refused 2 "a negative spacing" "option --spacing is '-1'" "$BIN/surfremesh" "$work/s.h5" --spacing -1 -o "$work/output/r.h5"
+refused 2 "an unknown method" "option --method is 'best', expected remesh, conformal or paper" \
+    "$BIN/surfremesh" "$work/s.h5" --method best -o "$work/output/r.h5"
 finish

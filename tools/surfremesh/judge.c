@@ -37,7 +37,7 @@ static void judge_surface(struct rebuild *r, const struct pm_surfaces *to, ptrdi
 {
     struct surfremesh_report *p = r->report;
     const struct pm_surface *f = &to->s[k];
-    const int drifts = k > 0 && r->method[k] == SURFREMESH_PAPER;
+    const int drifts = r->method[k] == SURFREMESH_PAPER;
 
     for (ptrdiff_t t = 0; t < f->nt; t++) {
         const int32_t *v = &f->tri[3 * t];

@@ -97,7 +97,7 @@ static enum pm_status aim(const struct rebuild *r, const struct pm_surface *f,
                           struct target *t, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    const int paper = r->method[k] == SURFREMESH_PAPER && k > 0;
+    const int paper = r->method[k] == SURFREMESH_PAPER;
     const double *carried = r->carried[k] != NULL ? r->carried[k] : f->Phi;
     const ptrdiff_t first = m->first[k];
     struct pm_basis work = {0};
@@ -147,7 +147,7 @@ static enum pm_status fit(const struct rebuild *r, struct pm_surfaces *to,
     enum { SLIDES = 2 };
     enum pm_status status = PM_OK;
     const struct pm_surface *from = &r->from->s[k];
-    const int paper = r->method[k] == SURFREMESH_PAPER && k > 0;
+    const int paper = r->method[k] == SURFREMESH_PAPER;
     struct pm_surface *f = &to->s[k];
     struct pm_map *old = NULL, *map = NULL;
     struct target t = {0};

@@ -9,7 +9,7 @@ struct rebuild {
     const struct pm_surfaces *from;
     const struct surfremesh_opts *o;
     int redo[PM_MAX_CHAMBERS + 1]; /* 1: the surface gets new control points; whole orbits */
-    enum surfremesh_method method[PM_MAX_CHAMBERS + 1];
+    enum surfremesh_method method[PM_MAX_CHAMBERS + 1]; /* exterior: SURFREMESH_REMESH */
     ptrdiff_t source[PM_MAX_CHAMBERS + 1],
         by[PM_MAX_CHAMBERS + 1];         /* the first surface of the orbit
                                              and the operation from it */
