@@ -1,21 +1,34 @@
 #include "common/actuation/determinant.h"
 
 #include <assert.h>
-#include <gsl/gsl_linalg.h>
+#include <math.h>
 #include <string.h>
 
+/* By hand: the LU decomposition of GSL 2.7 divides by a pivot that is zero. */
 double pm_det(int n, const double *A)
 {
-    double lu[PM_MAX_DETERMINANT * PM_MAX_DETERMINANT];
-    size_t order[PM_MAX_DETERMINANT];
-    int signum;
+    double lu[PM_MAX_DETERMINANT * PM_MAX_DETERMINANT], det = 1;
 
     assert(n >= 1 && n <= PM_MAX_DETERMINANT);
     memcpy(lu, A, (size_t)(n * n) * sizeof *lu);
-    gsl_matrix_view m = gsl_matrix_view_array(lu, (size_t)n, (size_t)n);
-    gsl_permutation p = {.size = (size_t)n, .data = order};
-    gsl_linalg_LU_decomp(&m.matrix, &p, &signum);
-    return gsl_linalg_LU_det(&m.matrix, signum);
+    for (int k = 0; k < n; k++) {
+        int pivot = k;
+        for (int i = k + 1; i < n; i++)
+            if (fabs(lu[n * i + k]) > fabs(lu[n * pivot + k]))
+                pivot = i;
+        if (lu[n * pivot + k] == 0)
+            return 0;
+        for (int j = k; j < n && pivot != k; j++) {
+            const double swap = lu[n * k + j];
+            lu[n * k + j] = lu[n * pivot + j];
+            lu[n * pivot + j] = swap;
+        }
+        det *= pivot != k ? -lu[n * k + k] : lu[n * k + k];
+        for (int i = k + 1; i < n; i++)
+            for (int j = k + 1; j < n; j++)
+                lu[n * i + j] -= lu[n * i + k] / lu[n * k + k] * lu[n * k + j];
+    }
+    return det;
 }
 
 void pm_cofactors(int n, const double *A, double *cof)

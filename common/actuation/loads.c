@@ -17,10 +17,13 @@ struct point {
     int face, sign;
 };
 
-/* Path of 2R: the pressure that varies, its direction, and the one that stays at pmax. */
-static const struct {
-    int varying, sign, high;
-} PATH[6] = {{1, 1, 0}, {0, -1, 1}, {2, 1, 1}, {1, -1, 2}, {0, 1, 2}, {2, -1, 0}};
+static const struct pm_edge PATH[6] = {{1, 1, 0},  {0, -1, 1}, {2, 1, 1},
+                                       {1, -1, 2}, {0, 1, 2},  {2, -1, 0}};
+
+struct pm_edge pm_load_edge(int e)
+{
+    return PATH[e];
+}
 
 const char *pm_form_name(enum pm_form form)
 {

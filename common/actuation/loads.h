@@ -33,6 +33,11 @@ enum pm_status pm_load_set(const struct pm_case *c, enum pm_form form, struct pm
                            ptrdiff_t *n, struct pm_err *err);
 /* 1 if operation g of the case may be used to drop points of its measure. */
 int pm_load_symmetry(const struct pm_case *c, ptrdiff_t g);
+/* Edge 0..5 of the path of 2R: the pressure that varies, +1 where it rises, the one at pmax. */
+struct pm_edge {
+    int varying, sign, high;
+};
+struct pm_edge pm_load_edge(int e);
 /* "boundary" or "volume". */
 const char *pm_form_name(enum pm_form form);
 enum pm_status pm_form_parse(const char *text, enum pm_form *form, struct pm_err *err);

@@ -62,7 +62,7 @@ enum pm_status pm_h5_link(struct pm_h5 *f, const char *target, const char *name,
 /* Attributes Version and Type of the existing group /VTKHDF. */
 enum pm_status pm_h5_mark_vtk(struct pm_h5 *f, const char *type, struct pm_err *err);
 /* Writes the group /VTKHDF (UnstructuredGrid, nodes in VTK order) for the nn nodes of the dataset
- * `points`, already written, and the cells tet (ne x npe): npe 4 or 10, tetrahedra, or 3,
+ * `points`, already written, and the cells tet (ne x npe): npe 4 or 10, tetrahedra, 2, lines, or 3,
  * triangles. */
 enum pm_status pm_h5_put_vtk(struct pm_h5 *f, const char *points, ptrdiff_t nn, ptrdiff_t ne,
                              ptrdiff_t npe, const int32_t *tet, struct pm_err *err);

@@ -1,11 +1,11 @@
-/* The VTKHDF side of a file: an UnstructuredGrid of triangles or of linear or quadratic
+/* The VTKHDF side of a file: an UnstructuredGrid of lines, of triangles or of linear or quadratic
  * tetrahedra. */
 #include <stdio.h>
 
 #include "common/base/memory.h"
 #include "common/files/h5.h"
 
-enum { VTK_TRIANGLE = 5, VTK_TETRA = 10, VTK_QUADRATIC_TETRA = 24 };
+enum { VTK_LINE = 3, VTK_TRIANGLE = 5, VTK_TETRA = 10, VTK_QUADRATIC_TETRA = 24 };
 
 /* VTK numbers the edges (01)(12)(20)(30)(13)(23): the last two of ours swapped. */
 static const int vtk_order[10] = {0, 1, 2, 3, 4, 5, 6, 7, 9, 8};
@@ -23,7 +23,10 @@ static enum pm_status put_cells(struct pm_h5 *f, ptrdiff_t ne, ptrdiff_t npe, co
         for (ptrdiff_t a = 0; a < npe; a++)
             node[npe * e + a] = tet[npe * e + vtk_order[a]];
         offset[e + 1] = npe * (e + 1);
-        type[e] = npe == 3 ? VTK_TRIANGLE : npe == 4 ? VTK_TETRA : VTK_QUADRATIC_TETRA;
+        type[e] = npe == 2   ? VTK_LINE
+                  : npe == 3 ? VTK_TRIANGLE
+                  : npe == 4 ? VTK_TETRA
+                             : VTK_QUADRATIC_TETRA;
     }
     PM_TRY(pm_h5_put(f, "/VTKHDF/Connectivity", (const ptrdiff_t[]){npe * ne}, node, err));
     PM_TRY(pm_h5_put(f, "/VTKHDF/Offsets", (const ptrdiff_t[]){ne + 1}, offset, err));

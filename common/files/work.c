@@ -19,6 +19,9 @@ static const struct scalar scalars[] = {
     {"/measure/min_det", AT(min_det)},
     {"/measure/max_det", AT(max_det)},
     {"/measure/sign_changes", AT(sign_changes)},
+    {"/measure/branch_jumps", AT(branch_jumps)},
+    {"/measure/max_rotation", AT(max_rotation)},
+    {"/measure/max_tilt", AT(max_tilt)},
 };
 
 enum { NSCALARS = sizeof scalars / sizeof scalars[0] };

@@ -17,16 +17,19 @@ struct pm_work {
     double min_det,
         max_det; /* of J (selected rows) times sigma over all points: a sign change is a fold */
     int64_t sign_changes;
-    ptrdiff_t ng, nc;       /* points of the chosen form, chambers */
-    int64_t *load;          /* index in the Gauss set    (ng) */
-    double *pressure;       /* (ng x nc) [p/mu] */
-    double *U;              /* (ng x 6) */
-    double *J;              /* (ng x 6 x nc) */
-    double *w;              /* contribution, sigma and weight included (ng) */
-    double *dw_dU;          /* (ng x 6) */
-    double *dw_dJ;          /* (ng x 6 x nc) */
-    int64_t *intersections; /* of the deformed boundary with itself (ng) */
-    double *gap;            /* least distance across air, -1: wide (ng) [mm] */
+    int64_t branch_jumps; /* points whose rotation vector and the one at the nearest pressures lie
+                             on different branches */
+    double max_rotation, max_tilt; /* largest |theta|, largest angle of pointing to +z [rad] */
+    ptrdiff_t ng, nc;              /* points of the chosen form, chambers */
+    int64_t *load;                 /* index in the Gauss set    (ng) */
+    double *pressure;              /* (ng x nc) [p/mu] */
+    double *U;                     /* (ng x 6) */
+    double *J;                     /* (ng x 6 x nc) */
+    double *w;                     /* contribution, sigma and weight included (ng) */
+    double *dw_dU;                 /* (ng x 6) */
+    double *dw_dJ;                 /* (ng x 6 x nc) */
+    int64_t *intersections;        /* of the deformed boundary with itself (ng) */
+    double *gap;                   /* least distance across air, -1: wide (ng) [mm] */
 };
 
 enum pm_status pm_work_load(const char *path, int allow_failure, struct pm_work *w,

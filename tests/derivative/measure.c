@@ -221,6 +221,14 @@ int main(void)
     if (pm_measure_select(&taylor, "3R", &err) != PM_OK)
         ok(0, "%s", err.text);
     check_case(&taylor, "3R, taylor", PM_FORM_BOUNDARY, 1.1);
+    /* at rest: a column of the matrix is zero */
+    struct pm_case rest = {.nchambers = 3};
+    double none[6] = {0}, any[18] = {0.3, 0.1, 2, 1, -1, 0.5, 0.2, 0.7, -0.4}, at_rest = NAN;
+    ok(pm_measure_select(&rest, "3T", &err) == PM_OK &&
+           pm_measure_point(&rest, PM_FORM_BOUNDARY, &load, none, any, &at_rest, a, b, &err) ==
+               PM_OK &&
+           at_rest == 0,
+       "nothing at rest");
     check_weights();
     check_manifold();
     check_refusals();

@@ -11,8 +11,9 @@
 #include "common/files/step.h"
 #include "common/files/sweep.h"
 #include "common/files/work.h"
+#include "common/files/workspace.h"
 
-static const char all_kinds[] = "surface mesh state path work sens step skin";
+static const char all_kinds[] = "surface mesh state path work sens step skin workspace";
 
 /* ---- items ---- */
 
@@ -62,6 +63,7 @@ union record {
     struct pm_work work;
     struct pm_sens sens;
     struct pm_step step;
+    struct pm_workspace workspace;
 };
 
 /* A skin has no reader but this one. */
@@ -113,6 +115,9 @@ static enum pm_status check_record(const char *kind, const char *path, struct pm
     } else if (strcmp(kind, "step") == 0) {
         status = pm_step_load(path, &r.step, err);
         pm_step_release(&r.step);
+    } else if (strcmp(kind, "workspace") == 0) {
+        status = pm_workspace_load(path, &r.workspace, err);
+        pm_workspace_release(&r.workspace);
     } else {
         status = check_skin(path, err);
     }

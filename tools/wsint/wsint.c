@@ -1,86 +1,15 @@
 #include "tools/wsint/wsint.h"
-
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+#include "common/actuation/branch.h"
 #include "common/actuation/measure.h"
 #include "common/base/log.h"
 #include "common/base/memory.h"
-
-struct design {
-    struct pm_case pcase;
-    ptrdiff_t nn;
-    double *x;                  /* reference node positions of the first state (nn x 3) */
-    struct wsint_point *points; /* (np) */
-    ptrdiff_t np;
-    char failure[512]; /* of a state, "" if all are equilibria */
-};
-
-static void design_release(struct design *d)
-{
-    pm_case_release(&d->pcase);
-    pm_free(d->x);
-    pm_free(d->points);
-}
-
-/* Everything after the first state must belong to the same case and the same mesh. */
-static enum pm_status add_state(struct design *d, ptrdiff_t i, const char *path, struct pm_state *s,
-                                struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    const struct pm_mesh *m = &s->mesh;
-    struct wsint_point *q = &d->points[i];
-
-    if (d->pcase.text == NULL)
-        PM_TRY(pm_case_copy(&m->pcase, &d->pcase, err));
-    if (strcmp(d->pcase.text, m->pcase.text) != 0)
-        PM_TRY(pm_fail(err, PM_INPUT,
-                       "cannot use '%s': its case differs from that of the other states", path));
-    if (s->failure[0] != '\0') {
-        if (d->failure[0] == '\0')
-            memcpy(d->failure, s->failure, sizeof d->failure);
-        goto done;
-    }
-    if (m->nc != d->pcase.nchambers)
-        PM_TRY(pm_fail(err, PM_INPUT, "cannot use '%s': it has %td chambers, expected %td", path,
-                       m->nc, d->pcase.nchambers));
-    if (d->x == NULL) {
-        d->nn = m->nn;
-        d->x = s->mesh.x;
-        s->mesh.x = NULL;
-    } else if (d->nn != m->nn || memcmp(d->x, m->x, (size_t)(3 * m->nn) * sizeof(double)) != 0) {
-        PM_TRY(pm_fail(err, PM_INPUT,
-                       "cannot use '%s': its mesh differs from that of the other states", path));
-    }
-    q->path = path;
-    memcpy(q->pressure, s->pressure, (size_t)m->nc * sizeof(double));
-    memcpy(q->U, s->U, sizeof q->U);
-    memcpy(q->J, s->J, (size_t)(6 * m->nc) * sizeof(double));
-    q->intersections = s->contact.intersections;
-    q->gap = s->contact.gap;
-done:
-    return status;
-}
-
-static enum pm_status read_states(const struct wsint_opts *opts, const struct pm_common *common,
-                                  struct design *d, struct pm_err *err)
-{
-    enum pm_status status;
-    struct pm_state s = {0};
-
-    d->np = common->noperands;
-    PM_TRY(PM_NEW(d->points, d->np, err));
-    for (ptrdiff_t i = 0; i < d->np; i++) {
-        PM_TRY(pm_state_load(common->operands[i], opts->record_failure, &s, err));
-        PM_TRY(add_state(d, i, common->operands[i], &s, err));
-        pm_state_release(&s);
-        s = (struct pm_state){0};
-    }
-done:
-    pm_state_release(&s);
-    return status;
-}
+#include "common/files/provenance.h"
+#include "common/files/workspace.h"
+#include "tools/wsint/design.h"
 
 static enum pm_status read_orientation(const char *path, const char *measure, double *orientation,
                                        struct pm_err *err)
@@ -99,7 +28,7 @@ done:
 }
 
 /* Folds: det J (selected rows) must keep the sign sigma at every point of both forms. */
-static void check_folds(const struct design *d, struct pm_work *w)
+static void check_folds(const struct wsint_design *d, struct pm_work *w)
 {
     w->min_det = INFINITY;
     w->max_det = -INFINITY;
@@ -116,8 +45,48 @@ static void check_folds(const struct design *d, struct pm_work *w)
             (long long)w->sign_changes, d->np, w->min_det, w->max_det);
 }
 
+/* The point at the nearest other pressures. */
+static ptrdiff_t neighbour(const struct wsint_design *d, ptrdiff_t i)
+{
+    ptrdiff_t best = i;
+    double least = INFINITY;
+    for (ptrdiff_t j = 0; j < d->np; j++) {
+        double sum = 0;
+        for (ptrdiff_t r = 0; r < d->pcase.nchambers; r++) {
+            const double gap = d->points[i].pressure[r] - d->points[j].pressure[r];
+            sum += gap * gap;
+        }
+        if (j != i && sum < least) {
+            least = sum;
+            best = j;
+        }
+    }
+    return best;
+}
+
+/* Rotation vectors must stay on one branch, 2R away from the pole of its potential. */
+static void check_rotations(const struct wsint_design *d, struct pm_work *w)
+{
+    const double near_turn = 0.9 * 3.14159265358979323846;
+    for (ptrdiff_t i = 0; i < d->np; i++) {
+        const double *t = d->points[i].U + 3;
+        const double eta = sqrt(t[0] * t[0] + t[1] * t[1] + t[2] * t[2]);
+        w->max_rotation = fmax(w->max_rotation, eta);
+        w->max_tilt = fmax(w->max_tilt, pm_branch_tilt(t));
+        w->branch_jumps += pm_branch_jump(d->points[neighbour(d, i)].U + 3, t);
+    }
+    if (w->branch_jumps > 0)
+        pm_warn("the rotation vector at %lld of %td points lies on another branch than at the "
+                "nearest pressures",
+                (long long)w->branch_jumps, d->np);
+    if (w->max_tilt > near_turn && strcmp(w->name, "2R") == 0)
+        pm_warn("the end-effector points up to %.1f degrees away from +z: measure 2R is singular "
+                "at 180",
+                w->max_tilt * 180 / 3.14159265358979323846);
+}
+
 /* Contact is not modelled: states that penetrate themselves are not what the robot does. */
-static void check_contact(const struct design *d)
+static void check_contact(const struct wsint_design *d)
 {
     ptrdiff_t n = 0, worst = 0;
     for (ptrdiff_t i = 0; i < d->np; i++) {
@@ -131,8 +100,8 @@ static void check_contact(const struct design *d)
 }
 
 /* The chosen form into *work, the other one (if given) as its quadrature error. */
-static enum pm_status integrate(const struct design *d, enum pm_form form, struct pm_work *work,
-                                struct pm_err *err)
+static enum pm_status integrate(const struct wsint_design *d, enum pm_form form,
+                                struct pm_work *work, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const enum pm_form across = form == PM_FORM_BOUNDARY ? PM_FORM_VOLUME : PM_FORM_BOUNDARY;
@@ -184,9 +153,17 @@ static enum pm_status show(const struct pm_common *common, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_work w = {.ng = 0};
+    struct pm_workspace dense = {.nn = 0};
+    char *kind = NULL, *history = NULL, *command = NULL;
 
     if (common->noperands != 1 || common->output != NULL)
-        PM_TRY(pm_fail(err, PM_USAGE, "--show takes one work file and no output"));
+        PM_TRY(pm_fail(err, PM_USAGE, "--show takes one work or workspace file and no output"));
+    PM_TRY(pm_h5_ancestry(common->operands[0], &kind, &history, &command, err));
+    if (kind != NULL && strcmp(kind, "workspace") == 0) {
+        PM_TRY(pm_workspace_load(common->operands[0], &dense, err));
+        wsint_show_workspace(&dense);
+        goto done;
+    }
     PM_TRY(pm_work_load(common->operands[0], 0, &w, err));
     printf("%s = %.6g %s (%s form, %td points)", w.name, w.value, w.unit,
            pm_form_name((enum pm_form)w.form), w.ng);
@@ -195,41 +172,55 @@ static enum pm_status show(const struct pm_common *common, struct pm_err *err)
                100 * w.quadrature_error);
     printf(", det J %.3g to %.3g\n", w.min_det, w.max_det);
 done:
+    pm_free(kind);
+    pm_free(history);
+    pm_free(command);
+    pm_workspace_release(&dense);
     pm_work_release(&w);
     return status;
 }
 
-static enum pm_status print_points(const struct wsint_opts *opts, const struct pm_common *common,
-                                   struct pm_err *err)
+enum pm_status wsint_apply(const struct wsint_opts *opts, struct pm_case *c, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    if (opts->form != NULL)
+        PM_TRY(pm_form_parse(opts->form, &c->form, err));
+    if (opts->measure != NULL)
+        PM_TRY(pm_measure_select(c, opts->measure, err));
+    if (opts->per_axis > 0)
+        c->points = opts->per_axis;
+    if (opts->full)
+        c->full_set = 1;
+done:
+    return status;
+}
+
+static enum pm_status run(const struct wsint_opts *opts, const struct pm_common *common,
+                          struct wsint_design *d, struct pm_work *work, struct pm_err *err)
 {
     enum pm_status status;
-    struct pm_case c = {0};
-    struct pm_load *loads = NULL;
-    ptrdiff_t n;
-    enum pm_form form;
+    struct pm_h5 *f = NULL;
+    const enum pm_form form = d->pcase.form;
 
-    if (common->noperands != 1 || common->output != NULL)
-        PM_TRY(pm_fail(err, PM_USAGE, "--points takes one case file and no output"));
-    PM_TRY(pm_case_load(common->operands[0], &c, err));
-    form = c.form;
-    if (opts->form != NULL)
-        PM_TRY(pm_form_parse(opts->form, &form, err));
-    if (opts->measure != NULL)
-        PM_TRY(pm_measure_select(&c, opts->measure, err));
-    PM_TRY(pm_load_set(&c, form, &loads, &n, err));
-    printf("point\tmultiplicity\tweight\tface\tsign");
-    for (ptrdiff_t r = 0; r < c.nchambers; r++)
-        printf("\tp%td", r + 1);
-    for (ptrdiff_t g = 0; g < n; g++) {
-        printf("\n%td\t%d\t%.9g\t%d\t%d", g, loads[g].multiplicity, loads[g].weight,
-               loads[g].face + 1, loads[g].sign);
-        for (ptrdiff_t r = 0; r < c.nchambers; r++)
-            printf("\t%.9g", loads[g].p[r]);
+    work->form = form;
+    memcpy(work->failure, d->failure, sizeof work->failure);
+    snprintf(work->name, sizeof work->name, "%s", d->pcase.measure);
+    snprintf(work->unit, sizeof work->unit, "%s", pm_measure_unit(&d->pcase));
+    if (work->failure[0] == '\0') {
+        PM_TRY(integrate(d, form, work, err));
+        check_folds(d, work);
+        check_rotations(d, work);
+        check_contact(d);
     }
-    putchar('\n');
+    PM_TRY(pm_case_copy(&d->pcase, &work->pcase, err));
+    PM_TRY(pm_h5_create(common->output, "work", common,
+                        (const char *const[]){opts->sign_from, NULL}, &f, err));
+    PM_TRY(pm_work_write(f, work, err));
+    status = pm_h5_commit(f, err);
+    f = NULL;
+    summarise(work);
 done:
-    pm_free(loads);
-    pm_case_release(&c);
+    pm_h5_close(f);
     return status;
 }
 
@@ -237,45 +228,29 @@ enum pm_status wsint_run(const struct wsint_opts *opts, const struct pm_common *
                          struct pm_err *err)
 {
     enum pm_status status;
-    struct design d = {0};
+    struct wsint_design d = {0};
     struct pm_work work = {0};
-    struct pm_h5 *f = NULL;
-    enum pm_form form;
 
     if (opts->show)
         return show(common, err);
     if (opts->points)
-        return print_points(opts, common, err);
+        return wsint_print_points(opts, common, err);
+    if (opts->boundary > 0)
+        return wsint_print_boundary(opts, common, err);
     if (common->output == NULL)
         return pm_fail(err, PM_USAGE, "no output, expected -o FILE");
-    PM_TRY(read_states(opts, common, &d, err));
-    form = d.pcase.form;
-    if (opts->form != NULL)
-        PM_TRY(pm_form_parse(opts->form, &form, err));
-    if (opts->measure != NULL)
-        PM_TRY(pm_measure_select(&d.pcase, opts->measure, err));
-    PM_TRY(pm_measure_check(&d.pcase, form, err));
+    PM_TRY(wsint_design_read(common, opts->record_failure && !opts->dense, &d, err));
+    PM_TRY(wsint_apply(opts, &d.pcase, err));
     if (opts->sign_from != NULL)
         PM_TRY(read_orientation(opts->sign_from, d.pcase.measure, &work.orientation, err));
-    work.form = form;
-    memcpy(work.failure, d.failure, sizeof work.failure);
-    snprintf(work.name, sizeof work.name, "%s", d.pcase.measure);
-    snprintf(work.unit, sizeof work.unit, "%s", pm_measure_unit(&d.pcase));
-    if (work.failure[0] == '\0') {
-        PM_TRY(integrate(&d, form, &work, err));
-        check_folds(&d, &work);
-        check_contact(&d);
+    if (opts->dense) {
+        PM_TRY(wsint_dense(common, opts->sign_from, work.orientation, &d, err));
+    } else {
+        PM_TRY(pm_measure_check(&d.pcase, d.pcase.form, err));
+        PM_TRY(run(opts, common, &d, &work, err));
     }
-    PM_TRY(pm_case_copy(&d.pcase, &work.pcase, err));
-    PM_TRY(pm_h5_create(common->output, "work", common,
-                        (const char *const[]){opts->sign_from, NULL}, &f, err));
-    PM_TRY(pm_work_write(f, &work, err));
-    status = pm_h5_commit(f, err);
-    f = NULL;
-    summarise(&work);
 done:
-    pm_h5_close(f);
     pm_work_release(&work);
-    design_release(&d);
+    wsint_design_release(&d);
     return status;
 }
