@@ -27,7 +27,7 @@ int main(int argc, char **argv)
     struct pmplot_opts opts = {0};
     const struct pm_tool tool = {
         .name = "pmplot",
-        .operands = "surface|section|deformed|path|workspace FILE.h5..",
+        .operands = "surface|section|deformed|path|boundary|workspace FILE.h5..",
         .summary = "tables of shapes, deformed bodies and workspaces for plotting programs",
         .options = OPTIONS,
         .min_operands = 2,

@@ -57,6 +57,17 @@ static enum pm_status plot_path(const char *path, struct pm_err *err)
     return status;
 }
 
+static enum pm_status plot_boundary(const char *path, struct pm_err *err)
+{
+    struct pm_workspace w;
+    const enum pm_status status = pm_workspace_load(path, &w, err);
+
+    if (status == PM_OK)
+        pmplot_boundary(&w);
+    pm_workspace_release(&w);
+    return status;
+}
+
 enum pm_status pmplot_run(const struct pmplot_opts *opts, const struct pm_common *common,
                           struct pm_err *err)
 {
@@ -71,9 +82,12 @@ enum pm_status pmplot_run(const struct pmplot_opts *opts, const struct pm_common
         return plot_surfaces(opts, what, common->operands[1], err);
     if (strcmp(what, "path") == 0)
         return plot_path(common->operands[1], err);
+    if (strcmp(what, "boundary") == 0)
+        return plot_boundary(common->operands[1], err);
     if (several || strcmp(what, "deformed") == 0)
         return plot_states(what, common->operands + 1, common->noperands - 1, err);
-    return pm_fail(err, PM_USAGE,
-                   "unknown table '%s', expected surface, section, deformed, path or workspace",
-                   what);
+    return pm_fail(
+        err, PM_USAGE,
+        "unknown table '%s', expected surface, section, deformed, path, boundary or workspace",
+        what);
 }

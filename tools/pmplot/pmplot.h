@@ -9,6 +9,7 @@
 #include "common/files/state.h"
 #include "common/files/surfaces.h"
 #include "common/files/sweep.h"
+#include "common/files/workspace.h"
 
 struct pmplot_opts {
     int accepted; /* of a step file the accepted design, not the proposed one */
@@ -28,6 +29,8 @@ void pmplot_deformed(const struct pm_state *s);
 /* path: a line a point that was reached: pressures, pose, volumes, energy, gap, intersections; a
  * blank line for one that was not. */
 void pmplot_path(const struct pm_sweep *s);
+/* boundary: the surface of a dense workspace, triangles x y z angle, or its curve, segments. */
+void pmplot_boundary(const struct pm_workspace *w);
 /* workspace: the image of the edges of the actuation square in the two DoFs of the case, closed;
  * then the given states, then their images by symmetry: U p. Between states the curve is the cubic
  * that has their U and J. Needs states at the corners of the square, themselves or by symmetry. */

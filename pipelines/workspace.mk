@@ -1,0 +1,19 @@
+# The dense workspace of a design: equilibria all over the boundary of the actuation box, the measure by quadrature on
+# them beside the Gauss values, the surface of the workspace as VTKHDF and as a picture.
+#
+#   make -j2 workspace CASE=data/cases/NAME.ini [RUN=run/NAME] [SIZE=MM] [STEP=0.006]    of the first design of a case
+#   make -j2 workspace RUN=run/NAME [STEP=0.006]                        of the last accepted design of an optimisation
+#
+# Everything goes to RUN/workspace/; table.md holds the values. Symmetry leaves few of the points; they are solved in
+# parts of at most 64 by continuation, beside each other under make -j. A stopped target goes on where it was.
+
+STEP ?= 0.006
+.PHONY: workspace
+workspace: $(addprefix $B/bin/,surfgen tetmesh fesolve wsint pmplot trstep) ## dense workspace of a design: CASE=.. or RUN=.. [STEP=0.006] [SIZE=MM]
+	+@BIN='$(BIN)' MAKE='$(MAKE)' JOBS='$(JOBS)' pipelines/workspace.sh '$(RUN)' '$(CASE)' '$(STEP)' '$(SIZE)'
+
+# One list of pressures, one path.
+ifneq ($(WORKSPACE),)
+$(WORKSPACE)/%.h5: $(WORKSPACE)/%.txt $(WORKSPACE)/mesh.h5
+	@$(LAUNCH) $(BIN)/fesolve --path $< $(WORKSPACE)/mesh.h5 -o $@
+endif
