@@ -99,6 +99,11 @@ check: deps ## build and run the tests (SANITIZE=1: under the address and undefi
 check-built: $(TOOL_BIN) $(TEST_TOOL) $(filter $B/%,$(RUN_TESTS))
 	BUILD='$B' prove -j$(PROVE_JOBS) $(RUN_TESTS)
 
+# Studies of minutes to an hour.
+.PHONY: check-long
+check-long: deps ## the long tests: tests/long/*.sh
+	+@$(MAKE) --no-print-directory $(JOBS) check-built T='$(wildcard tests/long/*.sh)'
+
 # Checks of the source text.
 C_FILES := $(wildcard common/*/*.[ch] tools/*/*.[ch] tests/*.[ch] tests/*/*.[ch])
 SH_FILES := $(wildcard *.sh .ci/run pipelines/*.sh tests/*.sh tests/*/*.sh)

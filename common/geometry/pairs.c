@@ -108,17 +108,25 @@ struct search {
     ptrdiff_t tube_end; /* samples below are of the exterior */
 };
 
-static int close_pair(const struct search *q, ptrdiff_t i, ptrdiff_t j, double *distance)
+static int within(const struct search *q, ptrdiff_t i, ptrdiff_t j, double *distance)
 {
     const double *a = &q->x[3 * i], *b = &q->x[3 * j];
-    int same = q->m->surface[i] == q->m->surface[j];
-    double d2 = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
-                (a[2] - b[2]) * (a[2] - b[2]);
+    const double d2 = (a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) +
+                      (a[2] - b[2]) * (a[2] - b[2]);
 
-    if ((same && q->geodesic == HUGE_VAL) || !(d2 < q->cutoff * q->cutoff))
-        return 0;
     *distance = sqrt(d2);
-    return !same || along(q->m, i, j, i < q->tube_end) > q->geodesic;
+    return d2 < q->cutoff * q->cutoff;
+}
+
+static int apart(const struct search *q, ptrdiff_t i, ptrdiff_t j)
+{
+    return q->m->surface[i] != q->m->surface[j] ||
+           (q->geodesic != HUGE_VAL && along(q->m, i, j, i < q->tube_end) > q->geodesic);
+}
+
+static int close_pair(const struct search *q, ptrdiff_t i, ptrdiff_t j, double *distance)
+{
+    return within(q, i, j, distance) && apart(q, i, j);
 }
 
 static enum pm_status search_cell(const struct search *q, const struct grid *g, ptrdiff_t i,
@@ -211,10 +219,10 @@ static void best_in_cell(const struct search *q, const struct grid *g, const dou
 
     for (ptrdiff_t k = g->start[cell]; k < g->start[cell + 1]; k++) {
         const ptrdiff_t j = g->list[k];
-        if (j == i || !close_pair(q, i, j, &distance))
+        if (j == i || !within(q, i, j, &distance))
             continue;
         const int32_t slot = facing(q, normal, i, j, distance);
-        if (slot >= 0 && distance < best[slot].distance)
+        if (slot >= 0 && distance < best[slot].distance && apart(q, i, j))
             best[slot] = (struct pm_pair){(int32_t)i, (int32_t)j, distance};
     }
 }

@@ -7,6 +7,15 @@
 #include "common/geometry/curvature.h"
 
 static const double TWO_PI = 6.283185307179586476925;
+/* Edges that span less than this angle, up to so many cuts, keep the curvature between samples
+ * within a few per cent of that at them. */
+static const double BEND = 0.5, MOST_CUTS = 10;
+
+struct wish {
+    double spacing;
+    ptrdiff_t cuts;
+    int nodes;
+};
 
 /* One triangle of control points: corner parameters, unwrapped (theta, v, 0) on the tube. */
 struct patch {
@@ -91,36 +100,77 @@ static void part(const struct patch *p, ptrdiff_t q, double S[3], double *area)
     }
 }
 
-/* Cuts of a triangle whose corners lie at x (n x 3): longest edge <= spacing. */
-static ptrdiff_t cuts_of(const int32_t *tri, const double *x, double spacing, ptrdiff_t least)
+static enum pm_status bend_at(const struct pm_surface *s, const struct pm_map *map,
+                              const double S[3], struct pm_basis *b, double *bend,
+                              struct pm_err *err)
 {
-    double longest = 0;
+    struct pm_curvature c;
+    double r_a[6], r_ab[9];
+    const enum pm_status status = pm_map_point(map, s->phi, S, b, NULL, r_a, r_ab, err);
+
+    if (status != PM_OK)
+        return status;
+    pm_curvature_at(r_a, r_ab, &c);
+    *bend = sqrt(fmax(c.Q, 0));
+    return PM_OK;
+}
+
+/* Cuts of triangle t whose corners lie at x (n x 3) with curvatures bend (n) unless NULL: longest
+ * edge <= spacing and, where curvatures are wanted, <= BEND over the largest at corners and middle.
+ */
+static enum pm_status cuts_of(const struct pm_surface *s, const struct pm_map *map, ptrdiff_t t,
+                              const double *x, const double *bend, const struct wish *wish,
+                              struct pm_basis *b, ptrdiff_t *cuts, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const int32_t *tri = &s->tri[3 * t];
+    struct patch p;
+    double longest = 0, most = 0, middle[3], area;
 
     for (int k = 0; k < 3; k++) {
-        const double *a = &x[3 * (ptrdiff_t)tri[k]], *b = &x[3 * (ptrdiff_t)tri[(k + 1) % 3]];
-        longest = fmax(longest, hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]));
+        const double *a = &x[3 * (ptrdiff_t)tri[k]], *c = &x[3 * (ptrdiff_t)tri[(k + 1) % 3]];
+        longest = fmax(longest, hypot(hypot(a[0] - c[0], a[1] - c[1]), a[2] - c[2]));
     }
-    return (ptrdiff_t)fmax((double)least, ceil(longest / spacing - 1e-9));
+    if (bend != NULL) {
+        patch_init(s, s->Phi, t, &p);
+        p.cuts = 1;
+        part(&p, 0, middle, &area);
+        PM_TRY(bend_at(s, map, middle, b, &most, err));
+        for (int k = 0; k < 3; k++)
+            most = fmax(most, bend[tri[k]]);
+    }
+    const double wanted = fmax(longest / wish->spacing, fmin(longest * most / BEND, MOST_CUTS));
+    *cuts = (ptrdiff_t)fmax((double)wish->cuts, ceil(wanted - 1e-9));
+done:
+    return status;
 }
 
 /* Cuts of all triangles of surface k, into cuts (nt); adds its samples to *n. */
-static enum pm_status plan(const struct pm_surface *s, const struct pm_map *map, double spacing,
-                           ptrdiff_t least, ptrdiff_t *cuts, ptrdiff_t *n, struct pm_err *err)
+static enum pm_status plan(const struct pm_surface *s, const struct pm_map *map,
+                           const struct wish *wish, ptrdiff_t *cuts, ptrdiff_t *n,
+                           struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_basis b = {0};
-    double *x = NULL;
+    double *x = NULL, *bend = NULL;
 
     PM_TRY(PM_NEW(x, 3 * s->n, err));
-    for (ptrdiff_t i = 0; i < s->n; i++)
+    if (wish->nodes)
+        PM_TRY(PM_NEW(bend, s->n, err));
+    for (ptrdiff_t i = 0; i < s->n; i++) {
         PM_TRY(pm_map_point(map, s->phi, &s->Phi[3 * i], &b, &x[3 * i], NULL, NULL, err));
+        if (bend != NULL)
+            PM_TRY(bend_at(s, map, &s->Phi[3 * i], &b, &bend[i], err));
+    }
     for (ptrdiff_t t = 0; t < s->nt; t++) {
-        cuts[t] = cuts_of(&s->tri[3 * t], x, spacing, least);
+        PM_TRY(cuts_of(s, map, t, x, bend, wish, &b, &cuts[t], err));
         *n += cuts[t] * cuts[t];
     }
+    *n += wish->nodes ? s->n : 0;
 done:
     pm_basis_release(&b);
     pm_free(x);
+    pm_free(bend);
     return status;
 }
 
@@ -231,7 +281,7 @@ done:
     return status;
 }
 
-static enum pm_status make(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts, int nodes,
+static enum pm_status make(const struct pm_surfaces *s, const struct wish *wish,
                            struct pm_samples *samples, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -244,8 +294,7 @@ static enum pm_status make(const struct pm_surfaces *s, double spacing, ptrdiff_
     for (ptrdiff_t k = 0; k < s->ns; k++) {
         PM_TRY(PM_NEW(plans[k], s->s[k].nt, err));
         PM_TRY(pm_map_new(&s->s[k], &map[k], err));
-        PM_TRY(plan(&s->s[k], map[k], spacing, cuts, plans[k], &m.n, err));
-        m.n += nodes ? s->s[k].n : 0;
+        PM_TRY(plan(&s->s[k], map[k], wish, plans[k], &m.n, err));
         m.first[k + 1] = m.n;
     }
     PM_TRY(reserve(&m, err));
@@ -265,13 +314,13 @@ done:
 enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
                               struct pm_samples *samples, struct pm_err *err)
 {
-    return make(s, spacing, cuts, 0, samples, err);
+    return make(s, &(struct wish){spacing, cuts, 0}, samples, err);
 }
 
 enum pm_status pm_samples_with_nodes(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
                                      struct pm_samples *samples, struct pm_err *err)
 {
-    return make(s, spacing, cuts, 1, samples, err);
+    return make(s, &(struct wish){spacing, cuts, 1}, samples, err);
 }
 
 void pm_samples_release(struct pm_samples *m)

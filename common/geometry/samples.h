@@ -25,8 +25,8 @@ struct pm_samples {
  * and dense where control points are. */
 enum pm_status pm_samples_new(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
                               struct pm_samples *samples, struct pm_err *err);
-/* The same and, behind those of each surface, one without weight (w = area = 0) at every control
- * point: the curvature of splines peaks there. */
+/* The same for curvatures: denser where a surface bends sharply and, behind the samples of each
+ * surface, one without weight (w = area = 0) at every control point, where splines bend most. */
 enum pm_status pm_samples_with_nodes(const struct pm_surfaces *s, double spacing, ptrdiff_t cuts,
                                      struct pm_samples *samples, struct pm_err *err);
 void pm_samples_release(struct pm_samples *samples);

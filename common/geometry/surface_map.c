@@ -284,22 +284,33 @@ enum pm_status pm_map_basis(const struct pm_map *map, const double S[3], int ord
                                           : tube_basis(map, S, order, b, err);
 }
 
+/* sum (6 x 3) of the first `rows` kinds of weights: 1, 3 or 6, a constant where it is inlined. */
+static inline void apply(const struct pm_basis *b, const double *phi, int rows, double sum[18])
+{
+    for (ptrdiff_t k = 0; k < b->n; k++) {
+        const double *p = &phi[3 * (ptrdiff_t)b->id[k]];
+        double w[6] = {b->c[k]};
+        if (rows > 1)
+            memcpy(w + 1, &b->c_a[2 * k], 2 * sizeof *w);
+        if (rows > 3)
+            memcpy(w + 3, &b->c_ab[3 * k], 3 * sizeof *w);
+        for (int a = 0; a < rows; a++)
+            for (int i = 0; i < 3; i++)
+                sum[3 * a + i] += w[a] * p[i];
+    }
+}
+
 void pm_basis_apply(const struct pm_basis *b, const double *phi, double *r, double *r_a,
                     double *r_ab)
 {
     double sum[18] = {0};
-    int order = r_ab != NULL ? 2 : r_a != NULL ? 1 : 0;
 
-    for (ptrdiff_t k = 0; k < b->n; k++) {
-        const double *p = &phi[3 * (ptrdiff_t)b->id[k]];
-        for (int i = 0; i < 3; i++) {
-            sum[i] += b->c[k] * p[i];
-            for (int a = 0; order > 0 && a < 2; a++)
-                sum[3 + 3 * a + i] += b->c_a[2 * k + a] * p[i];
-            for (int a = 0; order > 1 && a < 3; a++)
-                sum[9 + 3 * a + i] += b->c_ab[3 * k + a] * p[i];
-        }
-    }
+    if (r_ab != NULL)
+        apply(b, phi, 6, sum);
+    else if (r_a != NULL)
+        apply(b, phi, 3, sum);
+    else
+        apply(b, phi, 1, sum);
     if (r != NULL)
         memcpy(r, sum, 3 * sizeof(double));
     if (r_a != NULL)

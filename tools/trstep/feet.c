@@ -130,8 +130,11 @@ static enum pm_status add_wall(struct collection *c, const struct pm_near *q, st
         return PM_OK;
     memcpy(t->S, &p->samples.S[3 * q->j], sizeof t->S);
     memcpy(r, &p->x[3 * q->j], sizeof r);
-    if (q->distance < hypot(t->limit * (1 + TIGHT), p->cover))
+    if (q->distance < hypot(t->limit * (1 + TIGHT), p->cover)) {
+        if (old != NULL)
+            memcpy(t->S, old->S, sizeof t->S);
         PM_TRY(find_foot(c, q, t->S, r, err));
+    }
     PM_TRY(pm_map_basis(p->map[b], t->S, 1, &p->work, err));
     pm_basis_apply(&p->work, phi, NULL, r_a, NULL);
     pm_curvature_at(r_a, NULL, &at);
@@ -183,7 +186,7 @@ enum pm_status penalty_collect(struct penalty *p, const double *phi, double reac
 {
     const struct pm_samples *q = &p->samples;
     const double quiet = calm * calm * p->c->curvature_max * p->c->curvature_max;
-    double n[3], r_a[6], r_ab[9];
+    double n[3], r_a[6], r_ab[9] = {0};
     struct pm_curvature c;
 
     for (ptrdiff_t i = 0; i < q->n; i++) {

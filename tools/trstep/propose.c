@@ -11,12 +11,12 @@
 
 /* Largest relative violations of curvature and walls: where the multipliers are left, and what no
  * proposal exceeds unless its start does. */
-static const double WANTED[2] = {0.02, 0.005}, ALLOWED[2] = {0.05, 0.02};
+static const double WANTED[2] = {0.02, 0.008}, ALLOWED[2] = {0.05, 0.02};
 /* rho of the augmented Lagrangian at the start over slope * wall_min, its growth where a round
  * leaves more than SLOW of a violation. Weights of the merit over slope * wall_min. A proposal that
  * gains less than LEAST_GAIN of the measure is none. */
 static const double STIFFNESS = 150, GROWTH = 3, SLOW = 0.3, MERIT = 40, LEAST_GAIN = 1e-6;
-enum { ROUNDS = 12, HALVINGS = 8 };
+enum { ROUNDS = 12, HALVINGS = 8, REVISIONS = 3 };
 
 struct proposal {
     struct pm_step *s;
@@ -146,6 +146,36 @@ done:
     return status;
 }
 
+/* Solves, and asks more of the samples where new ones, placed for the proposal, see it violate what
+ * they do not. */
+static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_step *s = p->s;
+    double sum[2], seen[2];
+
+    for (int k = 0; k <= REVISIONS; k++) {
+        PM_TRY(solve(p, err));
+        if (!fit(s, ALLOWED))
+            break;
+        move(p, p->step);
+        pm_symmetrise_points(&s->accepted, p->trial);
+        pm_surfaces_scatter(&s->trial, p->trial);
+        PM_TRY(trstep_measure(&s->trial, sum, seen, err));
+        for (int i = 0; i < 2; i++) {
+            const double unseen = seen[i] - fmax(s->trial_worst[i], WANTED[i]);
+            if (seen[i] > ALLOWED[i] && seen[i] > s->worst[i])
+                p->penalty.strict[i] *= i == 0 ? 1 / (1 + unseen) : 1 + unseen;
+            s->trial_worst[i] = fmax(s->trial_worst[i], seen[i]);
+        }
+        if (fit(s, ALLOWED))
+            break;
+        pm_log(2, "seen: %.4f %.4f", seen[0], seen[1]);
+    }
+done:
+    return status;
+}
+
 /* Halves the radius until the constraints can be held. */
 static enum pm_status search(struct proposal *p, struct pm_err *err)
 {
@@ -154,7 +184,7 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
     const double start[2] = {p->rho[0], p->rho[1]};
 
     for (int k = 0;; k++) {
-        PM_TRY(solve(p, err));
+        PM_TRY(solve_seen(p, err));
         if (fit(s, ALLOWED))
             break;
         if (k == HALVINGS) {
@@ -165,6 +195,7 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
         }
         s->radius /= 2;
         memcpy(p->rho, start, sizeof start);
+        p->penalty.strict[0] = p->penalty.strict[1] = 1;
         for (ptrdiff_t i = 0; i < 3 * p->N; i++)
             p->step[i] /= 2;
         move(p, p->step);
@@ -215,14 +246,11 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
     struct proposal p = {.s = s, .N = s->accepted.offset[s->accepted.ns]};
 
     PM_TRY(prepare(&p, err));
+    PM_TRY(pm_surfaces_copy(&s->accepted, &s->trial, err));
     if (strcmp(s->verdict, "continue") == 0)
         PM_TRY(search(&p, err));
-    PM_TRY(pm_surfaces_copy(&s->accepted, &s->trial, err));
-    if (strcmp(s->verdict, "continue") == 0) {
-        move(&p, p.step);
-        pm_symmetrise_points(&s->accepted, p.trial);
-        pm_surfaces_scatter(&s->trial, p.trial);
-    } else {
+    if (strcmp(s->verdict, "continue") != 0) {
+        pm_surfaces_scatter(&s->trial, p.phi);
         s->gain = s->rms_step = s->max_step = 0;
         memcpy(s->trial_penalty, s->penalty, sizeof s->penalty);
         memcpy(s->trial_worst, s->worst, sizeof s->worst);
