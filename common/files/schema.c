@@ -112,6 +112,17 @@ static const struct pm_item table[] = {
     {"path", "/path/gap", D, "np", "mm", "least distance across air, 0 where faces pierce, -1 where wide", 1},
     {"path", "/path/displacement", D, "np nn 3", "mm", "nodal displacement", 1},
 
+    {"path", "/inverse/dofs", I64, "nd", "1", "of invkin: components of the pose that are asked for, 1..6", 0},
+    {"path", "/inverse/limits", D, "2", "p/mu", "least and largest pressure", 0},
+    {"path", "/inverse/length", D, "", "mm", "what a radian weighs", 0},
+    {"path", "/inverse/tolerance", D, "", "mm, degrees", "distance within which a target is reached", 0},
+    {"path", "/inverse/target", D, "np nd", "mm, rad", "components of the pose asked for", 0},
+    {"path", "/inverse/error", D, "np 2", "mm, rad", "distance from the target in position and in the rotation vector", 0},
+    {"path", "/inverse/verdict", I64, "np", "1", "0 reached, 1 nearest pose, a pressure at a bound, 2 nearest pose, 3 no equilibrium on the way, 4 unfinished", 0},
+    {"path", "/inverse/bound", I64, "np nc", "1", "pressure at its lower bound -1, upper 1, between them 0", 0},
+    {"path", "/inverse/iterations", I64, "np", "1", "steps in pressure taken", 0},
+    {"path", "/inverse/equilibria", I64, "np", "1", "finite element solutions", 0},
+
     {"work workspace", "/measure/value", D, "", "see /measure/unit", "workspace measure", 1},
     {"work workspace", "/measure/name", TEXT, "", "1", "2T 3T 2R 3R 1R2T 3R3T manifold", 1},
     {"work workspace", "/measure/unit", TEXT, "", "1", "unit of the value", 1},

@@ -65,6 +65,8 @@ each trstep sens /gradient/phi "$work/surface.h5" "$work/work.h5" @ @ @ @
 each trstep step /step/radius "$work/surface.h5" "$work/work.h5" --previous @
 each tetmesh mesh /mesh/x "$work/surface.h5" --previous @
 each fesolve state /node/displacement "$work/mesh.h5" --load 0 --guess @
+each invkin mesh /mesh/x --target 0,0 @
+each invkin state /node/displacement "$work/mesh.h5" --target 0,0 --guess @
 each meshexport state /node/displacement @
 each meshexport mesh /mesh/x --pressure 0.1,0 @
 each surfexport surface /surface1/phi @

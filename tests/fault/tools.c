@@ -12,6 +12,7 @@
 #include "tests/tap.h"
 #include "tools/adjsens/adjsens.h"
 #include "tools/fesolve/fesolve.h"
+#include "tools/invkin/invkin.h"
 #include "tools/meshexport/meshexport.h"
 #include "tools/surfexport/surfexport.h"
 #include "tools/surfgen/surfgen.h"
@@ -42,6 +43,17 @@ static enum pm_status fesolve(const struct pm_common *c, struct pm_err *err)
 {
     const struct fesolve_opts opts = {.have_load = 1, .element = "tet10-blend", .tolerance = 1e-8};
     return fesolve_run(&opts, c, err);
+}
+
+static enum pm_status invkin(const struct pm_common *c, struct pm_err *err)
+{
+    const struct invkin_opts opts = {.target = {0.05, 0.2},
+                                     .ntarget = 2,
+                                     .length = 57.3,
+                                     .tolerance = 0.1,
+                                     .most = 9,
+                                     .residual = 1e-8};
+    return invkin_run(&opts, c, err);
 }
 
 static enum pm_status wsint(const struct pm_common *c, struct pm_err *err)
@@ -143,6 +155,7 @@ int main(void)
         {"surfgen", surfgen, {"tiny.ini"}},
         {"surfremesh", surfremesh, {"surf.h5"}},
         {"fesolve", fesolve, {"mesh.h5"}},
+        {"invkin", invkin, {"mesh.h5"}},
         {"wsint", wsint, {"state-0.h5", "state-1.h5", "state-2.h5", "state-3.h5"}},
         {"adjsens", adjsens, {"state-0.h5", "work.h5"}},
         {"meshexport", meshexport, {"mesh.h5"}},
