@@ -179,7 +179,7 @@ static enum pm_status add_row(struct pm_samples *m, ptrdiff_t i, const struct pm
 {
     ptrdiff_t first = m->ptr[i];
 
-    if (first + b->n > *capacity) {
+    if (m->col == NULL || first + b->n > *capacity) {
         ptrdiff_t more = 2 * *capacity + b->n;
         void *col = pm_realloc(m->col, more, sizeof *m->col, err), *c, *c_a, *c_ab;
         m->col = col != NULL ? col : m->col;
