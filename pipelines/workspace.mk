@@ -17,3 +17,12 @@ ifneq ($(WORKSPACE),)
 $(WORKSPACE)/%.h5: $(WORKSPACE)/%.txt $(WORKSPACE)/mesh.h5
 	@$(LAUNCH) $(BIN)/fesolve --path $< $(WORKSPACE)/mesh.h5 -o $@
 endif
+
+# Results side by side.
+RUNS ?= $(patsubst %/history.tsv,%,$(wildcard run/*/history.tsv))
+BASELINE ?=
+.PHONY: table compare
+table: $B/bin/wsint ## all runs beside the paper's numbers, in Markdown: [RUNS='run/NAME ..']
+	@BIN='$(BIN)' pipelines/table.sh table $(RUNS)
+compare: $B/bin/wsint ## gain of a dense workspace over a baseline: RUN=run/NAME BASELINE=run/OTHER
+	@BIN='$(BIN)' pipelines/table.sh compare '$(RUN)' '$(BASELINE)'

@@ -20,6 +20,15 @@ check "picture" test -s "$work/run/workspace/workspace.png"
 cp "$work/run/workspace/workspace.h5" "$work/first.h5"
 check "again" dense CASE=tests/data/tiny.ini STEP=0.03
 check "equal bytes" cmp "$work/first.h5" "$work/run/workspace/workspace.h5"
+expect 0 "compare" make -s B="$BUILD" compare RUN="$work/run" BASELINE="$work/run"
+check "no gain over itself" grep -q ': +0 %$' "$work/out"
+expect 2 "compare with nothing" make -s B="$BUILD" compare RUN="$work/run"
+printf 'iteration\taccepted\tmeasure\n0\t1\t2\n1\t0\t1\n2\t1\t3\n' >"$work/run/history.tsv"
+printf 'it000\tmesh\t90\n' >"$work/run/times.tsv"
+cp tests/data/tiny.ini "$work/run/case.ini"
+expect 0 "table" make -s B="$BUILD" table RUNS="$work/run"
+check "a row of ten cells" awk -F ' [|] ' 'END { exit !(NF == 10 && $2 == "tiny" && $3 == 2 && $4 == 3 && $7 == "1 of 2" && $8 == 2) }' "$work/out"
+rm "$work/run/history.tsv"
 expect 2 "no design" make -s B="$BUILD" workspace
 check "says what it needs" grep -q 'expected CASE=' "$work/err"
 

@@ -311,7 +311,7 @@ void wsint_show_workspace(const struct pm_workspace *w)
            w->interval, w->nn);
     if (!isnan(w->value_polygon))
         printf(", of the %s %.6g", w->npe == 3 ? "polyhedron" : "polygon", w->value_polygon);
-    printf("; pointing angle max %.1f, median %.1f, min %.1f; |U4| %.1f, |U5| %.1f, |U6| %.1f, "
+    printf("; pointing angle max %.1f, median %.1f, min %.1f; largest U4 %.1f, U5 %.1f, U6 %.1f, "
            "twist %.1f degrees\n",
            degree * w->tilt[0], degree * w->tilt[1], degree * w->tilt[2], degree * w->rotation[0],
            degree * w->rotation[1], degree * w->rotation[2], degree * w->twist);
