@@ -1,6 +1,7 @@
 #!/bin/bash
-# gradients.sh row CASE NAME.row | table sphere|robot ROW.. | report TABLE
-# The measurements of gradients.mk. A row is named sphere-KAPPA-PARTSxLAYERS or robot-SIZE; it holds one line a form.
+# gradients.sh row CASE NAME.row | table sphere|robot|measure ROW.. | report TABLE
+# The measurements of gradients.mk. A row is named sphere-KAPPA-PARTSxLAYERS or robot-SIZE, with one
+# line a form, or measure-CASE.
 set -eu
 shopt -s inherit_errexit
 . pipelines/measure.sh
@@ -29,18 +30,37 @@ sphere_row() {
     mv "$3.part" "$3"
 }
 
+# states CASE SIZE BASE: all states of the case on a mesh of that size, BASE-00.state.h5 .., and BASE-work.h5; sets $last.
+states() {
+    local case=$1 size=$2 base=$3 g n
+    "$BIN/surfgen" -q "$case" -o "$base-surf.h5"
+    "$BIN/tetmesh" --size "$size" "$base-surf.h5" -o "$base.h5"
+    n=$("$BIN/wsint" --points "$case" | awk 'NR > 1' | wc -l)
+    for ((g = 0; g < n; g++)); do
+        last=$base-$(printf %02d "$g").state.h5
+        "$BIN/fesolve" --tolerance 1e-9 --load "$g" "$base.h5" -o "$last"
+    done
+    "$BIN/wsint" -q "$base"-??.state.h5 -o "$base-work.h5"
+}
+
+# Measure, its value, relative error of the gradient in the chambers, in the exterior, in both.
+measure_row() {
+    local base=${3%.row}
+    log=$base.log
+    states "data/cases/$1.ini" 6 "$base"
+    "$BIN/adjsens" --check "$last" "$base-work.h5" -o "$base-sens.h5" >"$log"
+    { printf '%s\t' "$1" "$(item /measure/value "$base-work.h5")"; awk '/plateau/ { printf "%s%s", s, $7; s = "\t" } END { print "" }' "$log"; } >"$3.part"
+    mv "$3.part" "$3"
+}
+
 # The rate of the measure where a chamber grows evenly along its normal, away from the ends, by both forms.
 robot_row() {
-    local size=$1 case=$2 base=${3%.row} g last form cost
+    local size=$1 case=$2 base=${3%.row} form cost
     log=$base.log
     : >"$log"
-    "$BIN/surfgen" "$case" -o "$base-surf.h5"
-    "$BIN/tetmesh" --size "$size" "$base-surf.h5" -o "$base.h5"
-    last=$(("$("$BIN/wsint" --points "$case" | awk 'NR > 1' | wc -l)" - 1))
-    for ((g = 0; g <= last; g++)); do "$BIN/fesolve" --tolerance 1e-9 --load "$g" "$base.h5" -o "$base-state$g.h5"; done
-    "$BIN/wsint" "$base"-state?.h5 -o "$base-work.h5"
+    states "$case" "$size" "$base"
     for form in domain boundary; do
-        cost=$(derivatives "$form" "$base-state$last.h5" "$base-$form.h5" "$base-work.h5")
+        cost=$(derivatives "$form" "$last" "$base-$form.h5" "$base-work.h5")
         printf '%s\t%s\t%s\t%s\t%s\n' "$form" "$size" "$(tetrahedra "$base.h5")" "$("$LIB/growth" "$base-surf.h5" "$base-$form.h5")" "$cost"
     done >"$3.part"
     mv "$3.part" "$3"
@@ -50,14 +70,18 @@ case $1 in
 row)
     name=$(basename "$3" .row)
     IFS=- read -r kind a b <<<"$name"
-    if [ "$kind" = sphere ]; then sphere_row "$a" "$b" "$3"; else robot_row "$a" "$2" "$3"; fi
+    case $kind in
+    sphere) sphere_row "$a" "$b" "$3" ;;
+    robot) robot_row "$a" "$2" "$3" ;;
+    measure) measure_row "$a" "$2" "$3" ;;
+    esac
     ;;
 table)
-    if [ "$2" = sphere ]; then
-        printf 'form\tkappa\tparts\tlayers\ttetrahedra\te_dA\te_dB\te_dpdA\te_dpdB\tcpu_s\tfactor_s\n'
-    else
-        printf 'form\tsize\ttetrahedra\tchambers\texterior\tcpu_s\tfactor_s\n'
-    fi
+    case $2 in
+    sphere) printf 'form\tkappa\tparts\tlayers\ttetrahedra\te_dA\te_dB\te_dpdA\te_dpdB\tcpu_s\tfactor_s\n' ;;
+    robot) printf 'form\tsize\ttetrahedra\tchambers\texterior\tcpu_s\tfactor_s\n' ;;
+    measure) printf 'case\tvalue\te_chambers\te_exterior\te_both\n' ;;
+    esac
     shift 2
     cat "$@"
     ;;
