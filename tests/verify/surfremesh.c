@@ -164,6 +164,53 @@ static const char *const ROUND =
     "[symmetry]\ngroup = mirror-x mirror-y\n[actuation]\npmax = 0.1\n[workspace]\nmeasure = 2T\n"
     "[mesh]\nsize = 3\n[constraints]\nwall_min = 2.4\ncurvature_max = 1\ncap_min = 3\n";
 
+/* A chamber kept by a mirror plane at 120 degrees, in a group of three planes. */
+static const char *const RADIAL =
+    "[case]\nname = radial\n[material]\nlaw = neo-hookean\nmu = 1\n"
+    "[body]\nshape = cylinder\nheight = 50\nradius = 22\naround = 24\nrows = 16\n"
+    "[chamber1]\nshape = capsule\ncenter = -5.5, 9.526279441628825, 25\nradius = 5\nlength = 40\n"
+    "spacing = 2.5\n[symmetry]\ngroup = c3 mirror-y\n[actuation]\npmax = 0.1\n"
+    "[workspace]\nmeasure = 3T\n[mesh]\nsize = 3\n"
+    "[constraints]\nwall_min = 2.4\ncurvature_max = 1\ncap_min = 3\n";
+
+static void radial(void)
+{
+    enum { CALLS = 4 };
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces now = {0}, to = {0};
+    struct pm_surfgen_report fit;
+    double *phi = NULL;
+    int kept = 0;
+
+    if (pm_case_parse(RADIAL, "radial", &c, &err) != PM_OK ||
+        pm_surfgen(&c, &now, &fit, &err) != PM_OK) {
+        ok(0, "%s", err.text);
+        return;
+    }
+    for (int call = 0; call < CALLS && !kept; call++) {
+        const struct surfremesh_opts o = {
+            .alpha = 0.1, .spacing = 2.5, .method = call % 2 ? SURFREMESH_CONFORMAL : 0};
+        struct surfremesh_report report = {0};
+        kept = surfremesh_report_init(&report, now.ns, &err) != PM_OK ||
+               pm_surfremesh(&now, &o, &to, &report, &err) != PM_OK || report.kept;
+        ok(!kept, "radial mirror plane, call %d %s%s", call + 1, err.text, report.reason);
+        surfremesh_report_release(&report);
+        if (kept)
+            break;
+        pm_surfaces_release(&now);
+        now = to;
+        memset(&to, 0, sizeof to);
+    }
+    if (PM_NEW(phi, 3 * now.offset[now.ns], &err) == PM_OK) {
+        pm_surfaces_gather(&now, phi);
+        near_abs("its symmetry defect [mm]", pm_symmetry_defect(&now, phi), 0, 1e-12);
+    }
+    pm_free(phi);
+    pm_surfaces_release(&now);
+    pm_case_release(&c);
+}
+
 /* The rows of a wavy exterior are pushed towards the base: a new parametrisation spreads them
  * again. */
 static void exterior(void)
@@ -225,6 +272,7 @@ int main(void)
     others(&first);
     stretched(&first);
     exterior();
+    radial();
     pm_surfaces_release(&first);
     pm_case_release(&c);
     return tap_done();
