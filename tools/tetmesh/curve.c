@@ -280,7 +280,9 @@ static enum pm_status untangle(struct curving *c, struct pm_curve_report *r, str
     for (ptrdiff_t a = 0; a < m->nn; a++) {
         if (a < c->nv || m->surface[a] < 0)
             continue;
+        const double *d = c->shift + 3 * a;
         m->max_damping = fmax(m->max_damping, 1 - c->t[a]);
+        r->off = fmax(r->off, (1 - c->t[a]) * sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]));
         r->damped += c->t[a] < 1;
     }
 done:

@@ -10,6 +10,7 @@ struct pm_curve_report {
     ptrdiff_t surface_middles; /* mid-side nodes on surfaces */
     ptrdiff_t bad;             /* elements below the bound before damping */
     ptrdiff_t damped;          /* mid-side nodes on surfaces with t < 1 */
+    double off;                /* largest distance that damping took from the true surface [mm] */
     int sweeps;
 };
 

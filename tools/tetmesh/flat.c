@@ -222,7 +222,7 @@ static enum pm_status divide_axis(struct pm_shell *s, double size, int32_t **out
                                   struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct on_axis at[2 * PM_MAX_CHAMBERS + 2];
+    struct on_axis at[2 * PM_MAX_CHAMBERS + 2] = {{0, 0}};
     ptrdiff_t count = 0, most = 0;
     int32_t *edge = NULL;
     *n = 0;

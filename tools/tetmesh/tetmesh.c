@@ -61,10 +61,10 @@ static enum pm_status generate(const struct pm_surfaces *s, const struct pm_mirr
     PM_TRY(pm_curve_mesh(s, &shell, &tetra, m, &r, err));
     m->origin = PM_ORIGIN_GENERATED;
     m->delaunay = tetra.delaunay;
-    pm_log(
-        1,
-        "%td of %td mid-side nodes on surfaces damped by up to %.3g (%td bad elements, %d sweeps)",
-        r.damped, r.surface_middles, m->max_damping, r.bad, r.sweeps);
+    pm_log(1,
+           "%td of %td mid-side nodes on surfaces damped by up to %.3g, %.2g mm off them (%td bad "
+           "elements, %d sweeps)",
+           r.damped, r.surface_middles, m->max_damping, r.off, r.bad, r.sweeps);
 done:
     pm_shell_release(&shell);
     pm_free(tetra.x);
