@@ -16,7 +16,7 @@ check "the body is there" cmp data/bodies/bellows.geo "$root/usr/share/pneumorph
 check "uninstall" make -s B="$BUILD" uninstall DESTDIR="$root" PREFIX=/usr
 check "uninstall leaves no file" test -z "$(find "$root" -type f)"
 expect 0 "make help" make -s help
-for target in all accuracy check demo deps lint install uninstall clean; do
+for target in all accuracy check demo deps invkin lint install uninstall clean; do
     check "make help lists $target" grep -q "^$target  *[a-zA-Z]" "$work/out"
 done
 finish
