@@ -38,9 +38,9 @@ NG := $(shell $(BIN)/wsint --points $(RUN)/case.ini | awk 'NR > 1' | wc -l)
 POINTS := $(shell seq -f %02g 0 $$(($(NG) - 1)))
 STATES := $(POINTS:%=$D/state-%.h5)
 SENSES := $(POINTS:%=$D/sens-%.h5)
-EVERY := $(call setting,remesh_every)
 FIRST := $(filter 0,$(NUMBER))
-REMESH := $(if $(FIRST),,$(filter 0,$(shell echo $$(($(if $(filter-out 0,$(EVERY)),$(NUMBER) % $(EVERY),1))))))
+# trstep says when control points and mesh are to be renewed; that is an iteration of its own, of the accepted design.
+RENEW := $(if $(FIRST),,$(filter renew,$(shell $(BIN)/trstep --next $(PREV)/step.h5)))
 
 STAGE = pipelines/stage.sh '$(RUN)' '$(ITER)'
 # The last accepted iteration, whose mesh and states are the nearest ones.
@@ -54,7 +54,7 @@ ifneq ($(FIRST),)
 SURF := $D/surf.h5
 $(SURF): $(RUN)/case.ini | $D
 	@$(STAGE) surfgen $(BIN)/surfgen $< -o $@
-else ifneq ($(REMESH),)
+else ifneq ($(RENEW),)
 SURF := $D/surf.h5
 $(SURF): $(PREV)/step.h5 | $D
 	@$(STAGE) surfremesh $(LAUNCH) $(BIN)/surfremesh --or-keep $< -o $@
@@ -62,8 +62,8 @@ else
 SURF := $(PREV)/step.h5
 endif
 
-# A reconstructed surface has new control points: no earlier mesh can be morphed to it.
-PREVIOUS_MESH = $(if $(FIRST)$(REMESH),,--previous $(LAST)/mesh.h5)
+# Trials are compared on one mesh, morphed; where it does not bear that, the next iteration renews it.
+PREVIOUS_MESH = $(if $(FIRST)$(RENEW),,--previous $(LAST)/mesh.h5 --keep-mesh)
 GUESS = $(if $(FIRST),,--guess $(LAST)/$(@F))
 PREVIOUS_STEP = $(if $(FIRST),,--previous $(PREV)/step.h5)
 SIGN = $(if $(FIRST),,--sign-from $(RUN)/it000/work.h5)

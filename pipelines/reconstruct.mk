@@ -7,19 +7,19 @@
 
 RECONSTRUCT_RUN ?= run/reconstruct
 RECONSTRUCT_CALLS ?= 40
-R := $(RECONSTRUCT_RUN)
-RECONSTRUCT_TABLES := $(patsubst %,$R/%.tsv,remesh conformal paper)
+S := $(RECONSTRUCT_RUN)
+RECONSTRUCT_TABLES := $(patsubst %,$S/%.tsv,remesh conformal paper)
 
 .PHONY: reconstruct reconstruct-results
 reconstruct: all ## what 40 reconstructions do to a bellows, by method: tables and a chart in run/reconstruct/
 	+@$(MAKE) --no-print-directory $(JOBS) reconstruct-results
-reconstruct-results: $(RECONSTRUCT_TABLES) $R/drift.png
+reconstruct-results: $(RECONSTRUCT_TABLES) $S/drift.png
 	@pipelines/reconstruct.sh report $(RECONSTRUCT_TABLES)
 
-$R/first.h5: data/bodies/bellows-477.ini | $B/bin/surfgen
-	@mkdir -p $R
+$S/first.h5: data/bodies/bellows-477.ini | $B/bin/surfgen
+	@mkdir -p $S
 	$B/bin/surfgen $< -o $@
-$(RECONSTRUCT_TABLES): $R/%.tsv: $R/first.h5 | $B/bin/surfremesh $B/tests/lib/surface_drift
+$(RECONSTRUCT_TABLES): $S/%.tsv: $S/first.h5 | $B/bin/surfremesh $B/tests/lib/surface_drift
 	BIN='$B/bin' LIB='$B/tests/lib' pipelines/reconstruct.sh calls $* $(RECONSTRUCT_CALLS) $< $@
-$R/drift.png: $(RECONSTRUCT_TABLES) pipelines/pictures/reconstruct.gp
-	gnuplot -c pipelines/pictures/reconstruct.gp $R $@
+$S/drift.png: $(RECONSTRUCT_TABLES) pipelines/pictures/reconstruct.gp
+	gnuplot -c pipelines/pictures/reconstruct.gp $S $@

@@ -1,9 +1,9 @@
-# march KIND CASE STEPS [REMESH]: optimises a synthetic measure (tests/lib/synthetic.c) without equilibria for
-# STEPS trials or until trstep ends, in $work/march, reconstructing before every REMESH-th one. rows.tsv: iteration
+# march KIND CASE STEPS: optimises a synthetic measure (tests/lib/synthetic.c) without equilibria for
+# STEPS trials or until trstep ends, in $work/march, reconstructing where trstep says renew. rows.tsv: iteration
 # and what synthetic prints; history.tsv.
 # shellcheck shell=bash disable=SC2154
 march() {
-    local kind=$1 case=$2 steps=$3 every=${4:-0} dir=$work/march surf=s.h5 n sens previous=()
+    local kind=$1 case=$2 steps=$3 dir=$work/march surf=s.h5 n sens previous=()
     rm -rf "$dir" && mkdir "$dir" || return
     "$BIN/surfgen" -q "$case" -o "$dir/s.h5" || return
     for ((n = 0; n <= steps; n++)); do
@@ -15,7 +15,7 @@ march() {
         mv "$dir/new.h5" "$dir/step.h5"
         surf=step.h5 previous=(--previous "$dir/step.h5")
         [ "$("$BIN/trstep" --verdict "$dir/step.h5")" = continue ] || break
-        if [ "$every" -gt 0 ] && [ $(((n + 1) % every)) -eq 0 ]; then
+        if [ "$("$BIN/trstep" --next "$dir/step.h5")" = renew ]; then
             "$BIN/surfremesh" -q --or-keep "$dir/step.h5" -o "$dir/surf.h5" || return
             surf=surf.h5
         fi

@@ -24,17 +24,12 @@ static const struct item items[] = {
 
 #define AT(member) offsetof(struct pm_trial, member), 1
 static const struct item columns[] = {
-    {"/trial/iteration", AT(iteration)},
-    {"/trial/accepted", AT(accepted)},
-    {"/trial/remeshed", AT(remeshed)},
-    {"/trial/measure", AT(measure)},
-    {"/trial/merit", AT(merit)},
-    {"/trial/predicted", AT(predicted)},
-    {"/trial/ratio", AT(ratio)},
-    {"/trial/radius", AT(radius)},
-    {"/trial/worst_curvature", AT(worst_curvature)},
-    {"/trial/worst_wall", AT(worst_wall)},
-    {"/trial/rms_step", AT(rms_step)},
+    {"/trial/iteration", AT(iteration)},   {"/trial/accepted", AT(accepted)},
+    {"/trial/renewed", AT(renewed)},       {"/trial/jump", AT(jump)},
+    {"/trial/measure", AT(measure)},       {"/trial/merit", AT(merit)},
+    {"/trial/predicted", AT(predicted)},   {"/trial/ratio", AT(ratio)},
+    {"/trial/radius", AT(radius)},         {"/trial/worst_curvature", AT(worst_curvature)},
+    {"/trial/worst_wall", AT(worst_wall)}, {"/trial/rms_step", AT(rms_step)},
 };
 #undef AT
 
@@ -97,6 +92,7 @@ enum pm_status pm_step_load(const char *path, struct pm_step *s, struct pm_err *
     PM_TRY(pm_record_get_short(f, "/step/verdict", s->verdict, sizeof s->verdict, err));
     for (int k = 0; k < NITEMS; k++)
         PM_TRY(pm_h5_get_into(f, items[k].name, items[k].count, (char *)s + items[k].offset, err));
+    PM_TRY(pm_h5_get_int(f, "/step/renew", &s->renew, err));
     PM_TRY(pm_h5_get(f, "/accepted/gradient", d, &s->gradient, err));
     PM_TRY(read_trials(f, s, err));
     if (s->ntrials < 1 || !(s->radius > 0))
@@ -149,6 +145,7 @@ enum pm_status pm_step_write(struct pm_h5 *f, const struct pm_step *s, struct pm
     for (int k = 0; k < NITEMS; k++)
         PM_TRY(pm_h5_put(f, items[k].name, items[k].count > 1 ? &items[k].count : NULL,
                          (const char *)s + items[k].offset, err));
+    PM_TRY(pm_h5_put_int(f, "/step/renew", s->renew, err));
     PM_TRY(pm_h5_put(f, "/accepted/gradient", d, s->gradient, err));
     PM_TRY(write_trials(f, s, err));
 done:

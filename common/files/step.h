@@ -9,7 +9,9 @@
 struct pm_trial {
     int64_t iteration; /* 0 is the first design */
     int64_t accepted;  /* 1, 0 */
-    int64_t remeshed;  /* 1: surfremesh changed its surfaces */
+    int64_t renewed;   /* 1: no trial but the accepted design on a new mesh, 2: and with new control
+                          points */
+    double jump;       /* relative change of T by that, 0 for a trial */
     double measure;    /* T; 0 where the design failed (then the reason says why) */
     double merit;      /* T - rho_c C_c - rho_t C_t with the weights of its sub-problem */
     double predicted;  /* predicted gain of merit over the last accepted design */
@@ -30,6 +32,8 @@ struct pm_step {
     double penalty[2],
         worst[2];     /* sums of curvature and wall penalties without weights, largest violations */
     double weight[2]; /* rho_c, rho_t */
+    int64_t renew;    /* 1: the proposal is the accepted design itself, to be reconstructed and
+                         meshed anew */
     double radius;    /* of the proposal [mm] */
     double gain;      /* predicted gain of T of the proposal */
     double trial_penalty[2], trial_worst[2]; /* of the proposal */

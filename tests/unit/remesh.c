@@ -100,7 +100,7 @@ static void check_sphere(const struct pm_surface *s, double size, struct pm_err 
        size, p.nn, p.nt);
     ok(f.open == 0, "size %g: closed and oriented (%td open edges)", size, f.open);
     ok(f.folded == 0, "size %g: no triangle folded in the parameter (%td)", size, f.folded);
-    ok(f.off == 0, "size %g: nodes are r(S) (%g)", size, f.off);
+    ok(f.off < 1e-12, "size %g: nodes are r(S) to rounding (%g)", size, f.off);
     /* facts of earlier measurements: worst triangle 0.71 to 0.85 */
     ok(f.qmin > 0.5, "size %g: worst triangle %.3f > 0.5", size, f.qmin);
     ok(f.inside > 0.97, "size %g: %.1f %% of the edges within 0.7 to 1.4 of the wanted length",

@@ -23,10 +23,10 @@ static void check_judgements(void)
     struct pm_work w = {.value = 50};
     struct judgement j;
 
-    trust_judge(NULL, &w, NULL, 0, &j);
+    trust_judge(NULL, &w, &j);
     ok(j.accepted, "the first design is accepted");
     w.value = 109;
-    trust_judge(&s, &w, s.trial_penalty, 0, &j);
+    trust_judge(&s, &w, &j);
     ok(j.accepted && fabs(j.ratio - 0.9) < 1e-12, "0.9 of the prediction: accepted");
     near_rel("and the radius grows", trust_radius(&s, &j), 0.45, 1e-12);
     s.rms_step = 0.2;
@@ -37,41 +37,63 @@ static void check_judgements(void)
     near_rel("nor beyond its cap", trust_radius(&s, &j), 1, 1e-12);
     s = promise();
     w.value = 102;
-    trust_judge(&s, &w, s.trial_penalty, 0, &j);
+    trust_judge(&s, &w, &j);
     ok(j.accepted, "0.2 of the prediction: accepted");
     near_rel("and the radius shrinks", trust_radius(&s, &j), 0.2, 1e-12);
     w.value = 100.5;
-    trust_judge(&s, &w, s.trial_penalty, 0, &j);
+    trust_judge(&s, &w, &j);
     ok(!j.accepted && j.reason[0] != '\0', "0.05 of the prediction: rejected, %s", j.reason);
     near_rel("and the radius is a third", trust_radius(&s, &j), 0.1, 1e-12);
     /* the merit would rise by 30 for less curvature, but T falls */
     s.weight[0] = 1;
     s.penalty[0] = 30;
     w.value = 99;
-    trust_judge(&s, &w, s.trial_penalty, 0, &j);
+    trust_judge(&s, &w, &j);
     ok(!j.accepted, "T fell: rejected whatever the merit, %s", j.reason);
     w.value = 101;
-    trust_judge(&s, &w, s.trial_penalty, 0, &j);
+    trust_judge(&s, &w, &j);
     near_rel("ratio of merits", j.ratio, 31.0 / 40, 1e-12);
     s = promise();
-    w.value = 99.6;
-    trust_judge(&s, &w, s.trial_penalty, 1, &j);
-    ok(j.accepted && j.excused, "a fall of 0.4 per cent over a reconstruction: accepted");
+    s.renew = 1;
+    w.value = 60;
+    trust_judge(&s, &w, &j);
+    ok(j.accepted && j.renewed, "a renewed design is accepted whatever it is worth");
     near_rel("and the radius stays", trust_radius(&s, &j), 0.3, 1e-12);
-    w.value = 99.4;
-    trust_judge(&s, &w, s.trial_penalty, 1, &j);
-    ok(!j.accepted, "0.6 per cent: rejected, %s", j.reason);
+    s = promise();
     /* a step that gives up 2 of T for 30 less penalty */
     s.gain = -2;
     s.weight[1] = 1;
     s.penalty[1] = 30;
     w.value = 98;
-    trust_judge(&s, &w, s.trial_penalty, 0, &j);
+    trust_judge(&s, &w, &j);
     ok(j.accepted && fabs(j.ratio - 1) < 1e-12, "T falls as promised for a wall: accepted");
     memcpy(w.failure, "no equilibrium", 15);
-    trust_judge(&s, &w, s.trial_penalty, 0, &j);
+    trust_judge(&s, &w, &j);
     ok(!j.accepted && strcmp(j.reason, "no equilibrium") == 0,
        "a failed design is rejected with its reason");
+}
+
+static void check_renewal(void)
+{
+    const struct pm_case c = {.remesh_every = 3};
+    struct pm_trial t[4] = {{.accepted = 1}, {.accepted = 1}, {.accepted = 0}, {.accepted = 1}};
+    struct pm_step s = promise();
+    struct pm_work w = {.value = 0};
+    struct judgement j = {.accepted = 1};
+    ok(!trust_renew(&c, t, 1, &j) && !trust_renew(&c, t, 2, &j) && trust_renew(&c, t, 3, &j),
+       "every third trial renews the design");
+    t[2].renewed = 1;
+    ok(!trust_renew(&c, t, 3, &j) && !trust_renew(&c, t, 4, &j), "counted from the last time");
+    snprintf(w.failure, sizeof w.failure, "tetmesh: worn mesh: cannot morph");
+    trust_judge(&s, &w, &j);
+    ok(!j.accepted && j.worn, "a worn mesh");
+    t[2].renewed = 0;
+    ok(trust_renew(&c, t, 2, &j) == 0 && trust_renew(&c, t, 4, &j), "is renewed unless it was new");
+    s.trials = t;
+    s.ntrials = 3;
+    near_rel("and the radius stays", trust_radius(&s, &j), 0.3, 1e-12);
+    s.ntrials = 1;
+    near_rel("on a new mesh it shrinks", trust_radius(&s, &j), 0.1, 1e-12);
 }
 
 static void check_verdicts(void)
@@ -168,6 +190,7 @@ static void check_subproblem(void)
 int main(void)
 {
     check_judgements();
+    check_renewal();
     check_verdicts();
     check_subproblem();
     return tap_done();

@@ -42,7 +42,7 @@ both() {
 check "CalculiX is installed (deps.sh)" command -v ccx
 
 check "finger: surfaces" "$BIN/surfgen" -q tests/data/finger.ini -o "$work/s.h5"
-check "finger: mesh" "$BIN/tetmesh" -q --size 6 "$work/s.h5" -o "$work/finger-mesh.h5"
+check "finger: mesh" "$BIN/tetmesh" -q --size 4 "$work/s.h5" -o "$work/finger-mesh.h5"
 finger=$work/finger-mesh.h5
 both "$quadrature" "$finger" tet10 0.15 finger
 both "$digits" "$finger" tet4 0.3 finger-tet4
@@ -52,7 +52,7 @@ both "$digits" "$finger" tet4 0.3 ogden --law ogden --parameters 0.3,2.5,-0.1,-2
 both "$digits" "$finger" tet4 -0.04 suction
 
 # The tiny robot with three chambers.
-sed 's/^name = .*/name = three/; s/mirror-x mirror-y/c3 mirror-y/; s/= 2T/= 3T/' tests/data/tiny.ini >"$work/three.ini"
+sed 's/^name = .*/name = three/; s/mirror-x mirror-y/c3 mirror-y/; s/= 2T/= 3T/; s/^wall_min = .*/wall_min = 1.9/' tests/data/tiny.ini >"$work/three.ini"
 check "three chambers: surfaces" "$BIN/surfgen" -q "$work/three.ini" -o "$work/s.h5"
 check "three chambers: mesh" "$BIN/tetmesh" -q --size 6 "$work/s.h5" -o "$work/three-mesh.h5"
 both "$quadrature" "$work/three-mesh.h5" tet10 0.12,0,0 three

@@ -5,6 +5,7 @@
 static const struct pm_option options[] = {
     {"size", 's', "MM", "wanted edge length (default: of the case)"},
     {"previous", 'p', "MESH.h5", "morph this mesh while its elements bear it"},
+    {"keep-mesh", 'k', NULL, "with --previous: fail where its elements do not bear it"},
     {"record-failure", 'r', NULL,
      "where the surfaces cannot be meshed, write a mesh file that says why"},
     {"symmetry", 'y', "auto|none",
@@ -58,11 +59,15 @@ static enum pm_status option(void *data, const char *name, const char *value, st
         double *number;
         const char **text;
         int *flag;
-    } simple[] = {
-        {"size", &o->size, NULL, NULL},       {"timeout", &o->timeout, NULL, NULL},
-        {"mu", &o->mu, NULL, NULL},           {"previous", NULL, &o->previous, NULL},
-        {"import", NULL, &o->import, NULL},   {"case", NULL, &o->case_file, NULL},
-        {"promote", NULL, NULL, &o->promote}, {"record-failure", NULL, NULL, &o->record_failure}};
+    } simple[] = {{"size", &o->size, NULL, NULL},
+                  {"timeout", &o->timeout, NULL, NULL},
+                  {"mu", &o->mu, NULL, NULL},
+                  {"previous", NULL, &o->previous, NULL},
+                  {"import", NULL, &o->import, NULL},
+                  {"case", NULL, &o->case_file, NULL},
+                  {"promote", NULL, NULL, &o->promote},
+                  {"record-failure", NULL, NULL, &o->record_failure},
+                  {"keep-mesh", NULL, NULL, &o->keep_mesh}};
     for (size_t k = 0; k < sizeof simple / sizeof simple[0]; k++) {
         if (strcmp(name, simple[k].name) != 0)
             continue;

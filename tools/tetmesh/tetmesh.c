@@ -73,8 +73,11 @@ done:
     return status;
 }
 
-/* Moves the nodes of m to the new control points. *good = 0 where its elements do not bear that. */
-static enum pm_status morph(const struct pm_surfaces *s, struct pm_mesh *m, int *good,
+enum { WHY = 256 };
+
+/* Moves the nodes of m to the new control points. *good = 0 where its elements do not bear that,
+ * and why. */
+static enum pm_status morph(const struct pm_surfaces *s, struct pm_mesh *m, int *good, char *why,
                             struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -93,43 +96,48 @@ static enum pm_status morph(const struct pm_surfaces *s, struct pm_mesh *m, int 
     m->min_jacobian = scaled;
     m->origin = PM_ORIGIN_MORPHED;
     *good = scaled >= min_scaled && mean_ratio >= min_mean_ratio;
-    pm_log(*good ? 1 : 0,
-           "previous mesh %s: scaled Jacobian %.3f, mean ratio %.3f, %td mid-side nodes damped",
-           *good ? "morphed" : "given up", scaled, mean_ratio, damped);
+    pm_log(
+        1,
+        "previous mesh morphed: scaled Jacobian %.3f, mean ratio %.3f, %td mid-side nodes damped",
+        scaled, mean_ratio, damped);
+    if (!*good)
+        snprintf(why, WHY,
+                 "its elements do not bear the motion: scaled Jacobian %.3f, mean ratio %.3f",
+                 scaled, mean_ratio);
 done:
     pm_extension_free(ext);
     pm_free(phi);
     return status;
 }
 
-/* Tries the previous mesh, which must be cut at `planes`: *good = 1 and m holds it morphed, or 0
- * and m is empty. */
+/* Tries the previous mesh, which must be cut at `planes`: *good = 1 and m holds it morphed, or 0,
+ * m is empty, and why. */
 static enum pm_status reuse(const char *path, const struct pm_surfaces *s,
                             const struct pm_mirrors *y, unsigned planes, struct pm_mesh *m,
-                            int *good, struct pm_err *err)
+                            int *good, char *why, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_err why = {.status = PM_OK};
+    struct pm_err broken = {.status = PM_OK};
     int same = 0;
     *good = 0;
     PM_TRY(pm_mesh_load(path, 1, m, err));
     if (m->failure[0] != '\0') {
-        pm_log(0, "previous mesh '%s' records a failure: meshing anew", path);
+        snprintf(why, WHY, "it records a failure");
     } else if (m->N == 0) {
         PM_TRY(pm_fail(err, PM_INPUT,
                        "cannot use '%s': an imported mesh has no control points, expected one made "
                        "from surfaces",
                        path));
     } else if (pm_mirrors_of(m) != planes) {
-        pm_log(0, "previous mesh '%s' is of another part of the body: meshing anew", path);
-    } else if (pm_mirrors_check(s, y, &why) != PM_OK) {
-        pm_log(0, "previous mesh '%s' given up: %s", path, why.text);
+        snprintf(why, WHY, "it is of another part of the body");
+    } else if (pm_mirrors_check(s, y, &broken) != PM_OK) {
+        snprintf(why, WHY, "%.200s", broken.text);
     } else {
         PM_TRY(pm_weights_same(m, s, &same, err));
         if (same)
-            PM_TRY(morph(s, m, good, err));
+            PM_TRY(morph(s, m, good, why, err));
         else
-            pm_log(0, "previous mesh '%s' has another parametrisation: meshing anew", path);
+            snprintf(why, WHY, "it has another parametrisation");
     }
 done:
     if (status != PM_OK || !*good)
@@ -156,19 +164,33 @@ done:
     return status;
 }
 
+/* The previous mesh where it serves, else a new one. */
 static enum pm_status make(const struct tetmesh_opts *o, const struct pm_surfaces *s,
                            struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_mirrors y;
+    char why[WHY] = "";
     int good = 0;
     pm_mirrors_find(s, &y);
     const unsigned planes = o->whole ? 0 : y.own;
     if (o->previous != NULL)
-        PM_TRY(reuse(o->previous, s, &y, planes, m, &good, err));
+        PM_TRY(reuse(o->previous, s, &y, planes, m, &good, why, err));
     if (good)
         return PM_OK;
-    status = make_new(o, s, &y, planes, m, err);
+    if (o->keep_mesh)
+        return pm_fail(err, PM_NUMERIC, "worn mesh: cannot morph '%s': %s", o->previous, why);
+    if (o->previous != NULL)
+        pm_log(0, "previous mesh '%s' given up, %s: meshing anew", o->previous, why);
+    PM_TRY(make_new(o, s, &y, planes, m, err));
+done:
+    return status;
+}
+
+static enum pm_status make_or_record(const struct tetmesh_opts *o, const struct pm_surfaces *s,
+                                     struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = make(o, s, m, err);
     if ((status == PM_INPUT || status == PM_NUMERIC) && o->record_failure) {
         pm_mesh_release(m);
         snprintf(m->failure, sizeof m->failure, "tetmesh: %.490s", err->text);
@@ -176,7 +198,6 @@ static enum pm_status make(const struct tetmesh_opts *o, const struct pm_surface
         *err = (struct pm_err){0};
         status = PM_OK;
     }
-done:
     return status;
 }
 
@@ -222,7 +243,7 @@ static enum pm_status mesh_surfaces(const struct tetmesh_opts *o, const char *pa
     enum pm_status status = PM_OK;
     struct pm_surfaces s = {0};
     PM_TRY(pm_surfaces_load(path, &s, err));
-    PM_TRY(make(o, &s, m, err));
+    PM_TRY(make_or_record(o, &s, m, err));
     pm_case_release(&m->pcase);
     PM_TRY(pm_case_copy(&s.pcase, &m->pcase, err));
     memcpy(m->reference_point, s.reference_point, sizeof m->reference_point);
@@ -248,6 +269,8 @@ enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_commo
         return pm_fail(err, PM_USAGE,
                        "--promote, --reference, --case, --material, --law, --parameters, --mu and "
                        "--kappa need --import");
+    if (o->keep_mesh && o->previous == NULL)
+        return pm_fail(err, PM_USAGE, "--keep-mesh needs --previous");
     if (o->import != NULL && materials != 1)
         return pm_fail(err, PM_USAGE,
                        "--import needs one of --case, --material, --law with --parameters, --mu");

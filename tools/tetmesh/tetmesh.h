@@ -10,6 +10,7 @@ struct tetmesh_opts {
     double timeout;       /* [s], 0: none */
     const char *previous; /* mesh to morph, or NULL */
     int record_failure;
+    int keep_mesh; /* fail where the previous mesh cannot be morphed */
     int whole; /* the whole body even where a part of it is a model */
     /* instead of surfaces: */
     const char *import;    /* gmsh file, or NULL */

@@ -7,6 +7,8 @@ static const struct pm_option OPTIONS[] = {
     {"judge", 0, NULL, "print accept or reject, write nothing"},
     {"history", 0, "STEP.h5", "print the history of a step file as a table, tab separated"},
     {"verdict", 0, "STEP.h5", "print the verdict of a step file: continue, converged or stalled"},
+    {"next", 0, "STEP.h5",
+     "print what a step file proposes: trial, or renew (the accepted design)"},
     {0},
 };
 
@@ -20,6 +22,8 @@ static enum pm_status take(void *opts, const char *name, const char *value, stru
         o->history = value;
     else if (strcmp(name, "verdict") == 0)
         o->verdict = value;
+    else if (strcmp(name, "next") == 0)
+        o->next = value;
     else
         o->judge = 1;
     return PM_OK;

@@ -162,16 +162,15 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
         pm_symmetrise_points(&s->accepted, p->trial);
         pm_surfaces_scatter(&s->trial, p->trial);
         PM_TRY(trstep_measure(&s->trial, sum, seen, err));
-        for (int i = 0; i < 2; i++) {
-            const double unseen = seen[i] - fmax(s->trial_worst[i], WANTED[i]);
-            if (seen[i] > ALLOWED[i] && seen[i] > s->worst[i])
-                p->penalty.strict[i] *= i == 0 ? 1 / (1 + unseen) : 1 + unseen;
-            s->trial_worst[i] = fmax(s->trial_worst[i], seen[i]);
-        }
+        if (seen[1] > ALLOWED[1] && seen[1] > s->worst[1])
+            p->penalty.strict[1] *= 1 + seen[1] - fmax(s->trial_worst[1], WANTED[1]);
+        s->trial_worst[1] = fmax(s->trial_worst[1], seen[1]);
+        pm_log(2, "seen: %.4f %.4f", seen[0], seen[1]);
         if (fit(s, ALLOWED))
             break;
-        pm_log(2, "seen: %.4f %.4f", seen[0], seen[1]);
     }
+    if (fit(s, ALLOWED))
+        s->trial_worst[0] = fmax(s->trial_worst[0], seen[0]);
 done:
     return status;
 }
@@ -247,7 +246,8 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
 
     PM_TRY(prepare(&p, err));
     PM_TRY(pm_surfaces_copy(&s->accepted, &s->trial, err));
-    if (strcmp(s->verdict, "continue") == 0)
+    const int moves = !s->renew && strcmp(s->verdict, "continue") == 0;
+    if (moves)
         PM_TRY(search(&p, err));
     if (strcmp(s->verdict, "continue") != 0) {
         pm_surfaces_scatter(&s->trial, p.phi);

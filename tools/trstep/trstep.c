@@ -14,8 +14,7 @@ struct trial {
     struct pm_work work;
     struct pm_step previous;
     const struct pm_step *before; /* &previous or NULL */
-    int remeshed;                 /* surfremesh came between the proposal and this trial */
-    double penalty[2], worst[2];  /* of the trial's surfaces; first design: unknown yet */
+    int rebuilt;                  /* its control points are not those of the proposal */
     struct judgement judgement;
 };
 
@@ -35,19 +34,22 @@ static enum pm_status same_case(const struct pm_case *expected, const struct pm_
                    path);
 }
 
-/* The penalties of the trial are those of its proposal unless the surfaces were reconstructed. */
-static enum pm_status compare_surfaces(struct trial *t, struct pm_err *err)
+/* Only a renewed design may have other control points than those proposed. */
+static enum pm_status compare_surfaces(struct trial *t, const char *path, struct pm_err *err)
 {
     const struct pm_surfaces *a = &t->previous.trial, *b = &t->surfaces;
 
-    memcpy(t->penalty, t->previous.trial_penalty, sizeof t->penalty);
-    memcpy(t->worst, t->previous.trial_worst, sizeof t->worst);
-    t->remeshed = a->ns != b->ns;
-    for (ptrdiff_t k = 0; k < a->ns && !t->remeshed; k++)
-        t->remeshed =
+    t->rebuilt = a->ns != b->ns;
+    for (ptrdiff_t k = 0; k < a->ns && !t->rebuilt; k++)
+        t->rebuilt =
             a->s[k].n != b->s[k].n ||
             memcmp(a->s[k].phi, b->s[k].phi, (size_t)(3 * b->s[k].n) * sizeof *b->s[k].phi) != 0;
-    return t->remeshed ? trstep_measure(b, t->penalty, t->worst, err) : PM_OK;
+    if (t->rebuilt && !t->previous.renew)
+        return pm_fail(err, PM_INPUT,
+                       "cannot use '%s': it does not hold the surfaces proposed by "
+                       "the previous step",
+                       path);
+    return PM_OK;
 }
 
 static enum pm_status load_trial(const struct trstep_opts *opts, char *const *paths,
@@ -65,9 +67,9 @@ static enum pm_status load_trial(const struct trstep_opts *opts, char *const *pa
             PM_TRY(pm_fail(err, PM_INPUT, "cannot use '%s': its verdict is '%s', expected continue",
                            opts->previous, t->previous.verdict));
         t->before = &t->previous;
-        PM_TRY(compare_surfaces(t, err));
+        PM_TRY(compare_surfaces(t, paths[0], err));
     }
-    trust_judge(t->before, &t->work, t->penalty, t->remeshed, &t->judgement);
+    trust_judge(t->before, &t->work, &t->judgement);
     if (t->before == NULL && !t->judgement.accepted)
         PM_TRY(pm_fail(err, PM_NUMERIC, "the first design failed: %s", t->judgement.reason));
     if (t->before == NULL && !(t->work.value > 0))
@@ -152,15 +154,16 @@ static enum pm_status add_row(const struct trial *t, struct pm_step *s, struct p
     PM_TRY(PM_NEW(s->trials, n + 1, err));
     if (b != NULL) {
         memcpy(s->trials, b->trials, (size_t)n * sizeof *b->trials);
-        row.merit = trust_merit(row.measure, b->weight, t->penalty);
+        row.merit = trust_merit(row.measure, b->weight, b->trial_penalty);
         row.predicted = trust_merit(b->value + b->gain, b->weight, b->trial_penalty) -
                         trust_merit(b->value, b->weight, b->penalty);
         row.ratio = t->judgement.ratio;
         row.radius = b->radius;
         row.rms_step = b->rms_step;
-        row.remeshed = t->remeshed;
-        row.worst_curvature = t->worst[0];
-        row.worst_wall = t->worst[1];
+        row.renewed = b->renew + t->rebuilt;
+        row.jump = b->renew && t->judgement.accepted ? row.measure / b->value - 1 : 0;
+        row.worst_curvature = b->trial_worst[0];
+        row.worst_wall = b->trial_worst[1];
     } else {
         row.radius = s->radius;
     }
@@ -182,7 +185,7 @@ static void complete_row(const struct trial *t, struct pm_step *s)
         return;
     row->worst_curvature = s->worst[0];
     row->worst_wall = s->worst[1];
-    if (t->before == NULL)
+    if (t->before == NULL || row->renewed)
         row->merit = trust_merit(s->value, s->weight, s->penalty);
 }
 
@@ -197,6 +200,7 @@ static enum pm_status make_step(const struct trstep_opts *opts, const struct pm_
     PM_TRY(add_row(t, &s, err));
     snprintf(s.verdict, sizeof s.verdict, "%s",
              trust_verdict(&s.accepted.pcase, s.trials, s.ntrials, s.radius));
+    s.renew = trust_renew(&s.accepted.pcase, s.trials, s.ntrials, &t->judgement);
     PM_TRY(trstep_propose(&s, err));
     complete_row(t, &s);
     PM_TRY(pm_h5_create(common->output, "step", common, (const char *const[]){opts->previous, NULL},
@@ -218,10 +222,10 @@ done:
 static enum pm_status check_usage(const struct trstep_opts *o, const struct pm_common *c,
                                   struct pm_err *err)
 {
-    const int prints = (o->history != NULL) + (o->verdict != NULL);
+    const int prints = (o->history != NULL) + (o->verdict != NULL) + (o->next != NULL);
     if (prints > 0 &&
         (prints > 1 || c->noperands > 0 || c->output != NULL || o->judge || o->previous != NULL))
-        return pm_fail(err, PM_USAGE, "--history and --verdict stand alone");
+        return pm_fail(err, PM_USAGE, "--history, --verdict and --next stand alone");
     if (o->judge && (c->noperands != 2 || c->output != NULL))
         return pm_fail(err, PM_USAGE, "--judge takes SURF.h5 WORK.h5 and no output");
     if (prints == 0 && c->noperands < 2)
@@ -239,7 +243,7 @@ enum pm_status trstep_run(const struct trstep_opts *opts, const struct pm_common
     struct trial t = {.before = NULL};
 
     PM_TRY(check_usage(opts, common, err));
-    if (opts->history != NULL || opts->verdict != NULL)
+    if (opts->history != NULL || opts->verdict != NULL || opts->next != NULL)
         return trstep_print(opts, err);
     PM_TRY(load_trial(opts, common->operands, &t, err));
     if (opts->judge)

@@ -10,6 +10,7 @@ struct trstep_opts {
     const char *previous; /* step file that proposed this trial, NULL at the first design */
     const char *history;  /* step file whose history is printed */
     const char *verdict;  /* step file whose verdict is printed */
+    const char *next;     /* step file of which it is printed what it proposes */
     int judge;            /* print accept or reject only */
 };
 
@@ -21,14 +22,14 @@ enum pm_status trstep_run(const struct trstep_opts *opts, const struct pm_common
 /* Proposes from step->accepted, value, gradient, weight, radius: fills trial, gain, penalties,
  * lengths, raises the weights, and halves the radius until the proposal holds the constraints.
  * verdict becomes stalled where no step holds them or gains merit; then, and where it is not
- * "continue" already, the trial is the accepted design. */
+ * "continue" already, or the design is to be renewed, the trial is the accepted design. */
 enum pm_status trstep_propose(struct pm_step *step, struct pm_err *err);
 /* Penalties of a set of surfaces and their largest violations, of curvature and walls, as a step
  * file holds them. */
 enum pm_status trstep_measure(const struct pm_surfaces *s, double sum[2], double worst[2],
                               struct pm_err *err);
 
-/* Prints the history or the verdict of a step file to stdout. */
+/* Prints the history, the verdict or the kind of proposal of a step file to stdout. */
 enum pm_status trstep_print(const struct trstep_opts *opts, struct pm_err *err);
 
 #endif

@@ -2,8 +2,8 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
-static const double REBUILT = 0.005;
 enum { WINDOW = 5 }; /* accepted trials of the convergence test (paper) */
 
 double trust_merit(double value, const double weight[2], const double penalty[2])
@@ -11,29 +11,25 @@ double trust_merit(double value, const double weight[2], const double penalty[2]
     return value - weight[0] * penalty[0] - weight[1] * penalty[1];
 }
 
-void trust_judge(const struct pm_step *previous, const struct pm_work *work,
-                 const double penalty[2], int remeshed, struct judgement *j)
+void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j)
 {
-    *j = (struct judgement){.accepted = 0};
+    *j = (struct judgement){.renewed = previous != NULL && previous->renew};
     if (work->failure[0] != '\0') {
         snprintf(j->reason, sizeof j->reason, "%.150s", work->failure);
+        j->worn = strncmp(work->failure, TRUST_WORN, strlen(TRUST_WORN)) == 0;
         return;
     }
-    if (previous == NULL) {
+    if (previous == NULL || j->renewed) {
         j->accepted = 1;
         return;
     }
     const double before = trust_merit(previous->value, previous->weight, previous->penalty);
-    const double after = trust_merit(work->value, previous->weight, penalty);
+    const double after = trust_merit(work->value, previous->weight, previous->trial_penalty);
     const double promised =
         trust_merit(previous->value + previous->gain, previous->weight, previous->trial_penalty) -
         before;
     j->ratio = promised > 0 ? (after - before) / promised : 0;
-    const int rose = work->value > previous->value || previous->gain < 0;
-    if (remeshed && !(rose && j->ratio >= 0.1) &&
-        work->value > previous->value - REBUILT * fabs(previous->value))
-        j->accepted = j->excused = 1;
-    else if (!rose)
+    if (!(work->value > previous->value) && !(previous->gain < 0))
         snprintf(j->reason, sizeof j->reason, "the measure fell by %.3g %%",
                  100 * (1 - work->value / previous->value));
     else if (!(j->ratio >= 0.1))
@@ -43,20 +39,37 @@ void trust_judge(const struct pm_step *previous, const struct pm_work *work,
         j->accepted = 1;
 }
 
+/* Was the mesh of trial i new? */
+static int fresh(const struct pm_trial *trials, ptrdiff_t i)
+{
+    return i == 0 || trials[i].renewed;
+}
+
 double trust_radius(const struct pm_step *previous, const struct judgement *j)
 {
     const struct pm_case *c = &previous->trial.pcase;
     const double bound =
         fmax(previous->rms_step / previous->radius, previous->max_step / (2 * previous->radius));
+    if ((j->renewed && j->accepted) || (j->worn && !fresh(previous->trials, previous->ntrials - 1)))
+        return previous->radius;
     if (!j->accepted)
         return previous->radius / 3;
-    if (j->excused)
-        return previous->radius;
     if (j->ratio < 0.3)
         return previous->radius / 1.5;
     if (j->ratio > 0.75 && bound > 0.95)
         return fmin(previous->radius * 1.5, c->radius_max);
     return previous->radius;
+}
+
+int trust_renew(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_t n,
+                const struct judgement *j)
+{
+    ptrdiff_t since = 0;
+    if (j->worn && n > 1 && !fresh(trials, n - 2))
+        return 1;
+    while (since < n - 1 && !trials[n - 1 - since].renewed)
+        since++;
+    return c->remesh_every > 0 && since >= c->remesh_every - 1 && since > 0;
 }
 
 const char *trust_verdict(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_t n,
