@@ -16,7 +16,8 @@ check "history has a header and three rows" test "$(wc -l <"$work/first/history.
 check "first trial accepted and better" awk -F '\t' \
     'NR == 2 { t = $3 } NR == 3 { good = $2 == 1 && $3 > t } END { exit !good }' "$work/first/history.tsv"
 check "seconds of every stage" grep -qP '^it002\tfesolve 03\t[0-9.]+$' "$work/first/times.tsv"
-check "the second iteration renews the design" awk -F '\t' 'NR == 4 { good = $2 == 1 && $11 > 0 && $12 > -0.1 && $12 < 0.1 } END { exit !good }' "$work/first/history.tsv"
+check "the second iteration renews the design and says the jump" awk -F '\t' 'NR == 3 { t = $3 }
+    NR == 4 { off = $3 / t - 1 - $12; good = $2 == 1 && $11 > 0 && $12 != 0 && off < 0.005 && off > -0.005 } END { exit !good }' "$work/first/history.tsv"
 check "and reconstructs its surfaces" test -e "$work/first/it002/surf.h5" -a ! -e "$work/first/it001/surf.h5"
 
 # The states of an iteration start from those of the one before; of four the second and third bound the median.
@@ -67,14 +68,14 @@ check "report gives both forms" grep -q "^it002  2T = .*by the other form" "$wor
 # A design that cannot be meshed: a control point of a chamber far outside of the body.
 check "one iteration" run wild 0
 check "damage" "$LIB/mangle" set "$work/wild/it000/step.h5" /surface1/phi 0 400
-check "goes on" run wild 2
+check "goes on" run wild 3
 row() {
     awk -F '\t' -v n="$1" "NR == n + 2 { exit !($2) }" "$work/wild/history.tsv"
 }
 check "the trial is rejected with a reason and no measure" row 1 '$2 == 0 && $3 == "-" && $13 != "-"'
 check "without adjoint work" test ! -e "$work/wild/it001/sens-00.h5"
-check "the next one has a third of the radius and is better" awk -F '\t' \
-    'NR == 2 { t = $3 } NR == 4 { good = $2 == 1 && $7 < 0.07 && $3 > t } END { exit !good }' "$work/wild/history.tsv"
+check "after a renewal the next one has a third of the radius and is better" awk -F '\t' \
+    'NR == 4 { t = $3; renewed = $11 } NR == 5 { good = renewed && $2 == 1 && $7 < 0.07 && $3 > t } END { exit !good }' "$work/wild/history.tsv"
 
 # wsint takes every point of a Gauss set once, of one design.
 states=("$work"/first/it000/state-0?.h5)
