@@ -1,8 +1,8 @@
 /* Extension of surface motion to all nodes of a mesh [model 5]: three scalar quadratic Laplace
- * problems, or one of linear elasticity with the shear modulus 1/volume and Poisson's ratio 0.3 (key
- * `extension` of the case), on the generated mesh, X_I = X0_I + Ext (X_S - X0_S); every node of surfaces and caps is
- * given. Nodes of symmetry planes stay on them, and are extended to in them as if the body went on
- * behind. */
+ * problems, or one of linear elasticity with the shear modulus 1/volume and Poisson's ratio 0.3
+ * (key `extension` of the case), on the generated mesh, X_I = X0_I + Ext (X_S - X0_S); every node
+ * of surfaces and caps is given. Nodes of symmetry planes stay on them, and are extended to in them
+ * as if the body went on behind. */
 #ifndef PM_EXTENSION_H
 #define PM_EXTENSION_H
 
