@@ -16,6 +16,8 @@ static const double WANTED[2] = {0.02, 0.008}, ALLOWED[2] = {0.05, 0.02};
  * leaves more than SLOW of a violation. Weights of the merit over slope * wall_min. A proposal that
  * gains less than LEAST_GAIN of the measure is none. */
 static const double STIFFNESS = 150, GROWTH = 3, SLOW = 0.3, MERIT = 40, LEAST_GAIN = 1e-6;
+/* A proposal that the constraints make shorter than the radius leaves it at most so much longer. */
+static const double SHORTER = 4;
 enum { ROUNDS = 12, HALVINGS = 8, REVISIONS = 3 };
 
 struct proposal {
@@ -180,7 +182,7 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_step *s = p->s;
-    const double start[2] = {p->rho[0], p->rho[1]};
+    const double start[2] = {p->rho[0], p->rho[1]}, trust = s->radius;
 
     for (int k = 0;; k++) {
         PM_TRY(solve_seen(p, err));
@@ -201,6 +203,8 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
         penalty_relax(&p->penalty);
         PM_TRY(complete(p, err));
     }
+    /* The constraints make this step short, not distrust: the next may be longer. */
+    s->radius = fmin(trust, SHORTER * s->radius);
     /* What a step gives up for less violation must count as a gain of merit. */
     const double eased = s->penalty[0] + s->penalty[1] - s->trial_penalty[0] - s->trial_penalty[1];
     for (int k = 0; k < HALVINGS && s->gain < 0 && eased > 0 &&

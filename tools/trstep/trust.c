@@ -52,8 +52,11 @@ double trust_radius(const struct pm_step *previous, const struct judgement *j)
         fmax(previous->rms_step / previous->radius, previous->max_step / (2 * previous->radius));
     if ((j->renewed && j->accepted) || (j->worn && !fresh(previous->trials, previous->ntrials - 1)))
         return previous->radius;
-    if (!j->accepted)
-        return previous->radius / 3;
+    if (!j->accepted) { /* of the step itself: constraints may have made it shorter than the radius
+                         */
+        const double step = fmax(previous->rms_step, previous->max_step / 2);
+        return (step > 0 ? fmin(step, previous->radius) : previous->radius) / 3;
+    }
     if (j->ratio < 0.3)
         return previous->radius / 1.5;
     if (j->ratio > 0.75 && bound > 0.95)

@@ -20,9 +20,9 @@ struct judgement {
  * Otherwise accepted if T itself rose, unless the step gave it up for less violation, and the merit
  * rose by at least a tenth of the prediction. */
 void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j);
-/* Radius after a judged trial: ratio below 0.1 or rejected: a third; up to 0.3: 1/1.5; above 0.75
- * with the step at a bound: 1.5 times, at most radius_max of the case; kept where the design was
- * renewed, and where the mesh was worn unless it was new. */
+/* Radius after a judged trial: ratio below 0.1 or rejected: a third of the step; up to 0.3: 1/1.5;
+ * above 0.75 with the step at a bound: 1.5 times, at most radius_max of the case; kept where the
+ * design was renewed, and where the mesh was worn unless it was new. */
 double trust_radius(const struct pm_step *previous, const struct judgement *j);
 /* Is it time to renew control points and mesh before the next trial? Where the mesh was worn (and
  * not new), and at every remesh_every-th trial. trials (n), the last one just judged by j. */
