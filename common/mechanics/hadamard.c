@@ -219,11 +219,10 @@ enum pm_status pm_hadamard(const struct pm_model *m, const struct pm_config *c,
     PM_TRY(find_elements(m, element, err));
     for (ptrdiff_t f = 0; f < m->space.nf; f++) {
         ptrdiff_t r = pm_model_chamber(m, f);
-        struct side s;
+        struct side s = {.e = element[f]};
         double L[NF];
         if (m->mesh->tri_tag[f] < 0)
             continue;
-        s.e = element[f];
         deform(m, c, f, &s);
         first_line(m, h, w, r, &s, L);
         for (ptrdiff_t k = 0; k < h->n; k++)
