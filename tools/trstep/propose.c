@@ -25,6 +25,7 @@ struct proposal {
     struct penalty penalty;
     ptrdiff_t N;
     double rho[2];
+    double peak;   /* violation of curvature that new samples see: recorded, not refused */
     double *phi;   /* accepted control points (N x 3) [mm] */
     double *step;  /* (N x 3) [mm] */
     double *trial; /* phi + step, scratch (N x 3) */
@@ -154,7 +155,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_step *s = p->s;
-    double sum[2], seen[2];
+    double sum[2], seen[2] = {0};
 
     for (int k = 0; k <= REVISIONS; k++) {
         PM_TRY(solve(p, err));
@@ -171,8 +172,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
         if (fit(s, ALLOWED))
             break;
     }
-    if (fit(s, ALLOWED))
-        s->trial_worst[0] = fmax(s->trial_worst[0], seen[0]);
+    p->peak = seen[0];
 done:
     return status;
 }
@@ -205,6 +205,7 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
     }
     /* The constraints make this step short, not distrust: the next may be longer. */
     s->radius = fmin(trust, SHORTER * s->radius);
+    s->trial_worst[0] = fmax(s->trial_worst[0], p->peak);
     /* What a step gives up for less violation must count as a gain of merit. */
     const double eased = s->penalty[0] + s->penalty[1] - s->trial_penalty[0] - s->trial_penalty[1];
     for (int k = 0; k < HALVINGS && s->gain < 0 && eased > 0 &&
