@@ -68,16 +68,17 @@ static double uniform(uint64_t *seed)
     return (double)(*seed >> 11) / 9007199254740992.0;
 }
 
-/* Random direction: which = 1 chambers, 2 exterior, 3 both; largest displacement 1. Control points
+/* Random direction uphill, so that its derivative is no small difference of large terms: which = 1
+ * chambers, 2 exterior, 3 both; largest displacement 1. Control points
  * of the fixed rims do not move. */
-static void random_direction(const struct pm_mesh *mesh, const uint8_t *part, int which,
-                             uint64_t *seed, double *d)
+static void random_direction(const struct pm_mesh *mesh, const uint8_t *part, const double *g,
+                             int which, uint64_t *seed, double *d)
 {
     double most = 0.0;
     for (ptrdiff_t k = 0; k < mesh->N; k++) {
         double size = 0.0;
         for (int i = 0; i < 3; i++) {
-            double v = 2.0 * uniform(seed) - 1.0;
+            double v = copysign(uniform(seed), g[3 * k + i]);
             d[3 * k + i] = (part[k] & which) != 0 ? v : 0.0;
             size += d[3 * k + i] * d[3 * k + i];
         }
@@ -226,7 +227,7 @@ enum pm_status adjsens_check(const struct adjsens_opts *o, struct adjsens_point 
     PM_TRY(prepare(pt, &pr, err));
     classify(mesh, part);
     for (int which = 1; which <= 3; which++) {
-        random_direction(mesh, part, which, &seed, d);
+        random_direction(mesh, part, g, which, &seed, d);
         PM_TRY(sweep(&pr, label[which], g, d, o->radius, WANTED, &worst, err));
     }
     PM_TRY(check_points(o, &pr, part, g, &seed, d, &worst, err));
