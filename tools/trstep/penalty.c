@@ -63,7 +63,7 @@ enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struc
     const double edge = 0.65 * s->pcase.wall_min;
     double *phi = NULL;
 
-    *p = (struct penalty){.s = s, .c = &s->pcase, .cover = edge / sqrt(3.0), .strict = {1, 1}};
+    *p = (struct penalty){.s = s, .c = &s->pcase, .cover = edge / sqrt(3.0), .strict = 1};
     PM_TRY(pm_samples_with_nodes(s, edge, 2, &p->samples, err));
     const ptrdiff_t n = p->samples.n;
     PM_TRY(PM_NEW(p->from, n, err));
@@ -124,7 +124,7 @@ static void add_curvature(const struct penalty *p, const double *phi, double rho
                           struct penalty_value *v)
 {
     const struct pm_samples *q = &p->samples;
-    const double limit = square(p->c->curvature_max * p->strict[0]);
+    const double limit = square(p->c->curvature_max);
 
     for (ptrdiff_t i = 0; i < q->n; i++) {
         if (!(p->flag[i] & FEET_BEND))
@@ -167,7 +167,7 @@ static void add_walls(const struct penalty *p, const double *phi, double rho, do
         const struct penalty_wall *t = &p->wall[k];
         if (k == 0 || t[-1].i != t->i)
             pm_samples_at(&p->samples, t->i, phi, x, NULL, NULL);
-        const double lack = 1 - gap(p, t, x, phi) / t->limit, g = lack + p->strict[1] - 1;
+        const double lack = 1 - gap(p, t, x, phi) / t->limit, g = lack + p->strict - 1;
         v->worst[1] = fmax(v->worst[1], lack);
         const double f = enter(v, 1, p->share[t->i], t->multiplier, rho, g) / t->limit;
         if (gradient == NULL || !(f > 0))
@@ -222,8 +222,7 @@ void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
         if (p->flag[i] & FEET_BEND) {
             pm_samples_at(q, i, phi, NULL, r_a, r_ab);
             pm_curvature_at(r_a, r_ab, &c);
-            p->bend[i] = fmax(
-                p->bend[i] + rho[0] * (c.Q / square(p->c->curvature_max * p->strict[0]) - 1), 0);
+            p->bend[i] = fmax(p->bend[i] + rho[0] * (c.Q / square(p->c->curvature_max) - 1), 0);
         }
         if (!(p->flag[i] & FEET_BOUND))
             continue;
@@ -237,7 +236,7 @@ void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
         struct penalty_wall *t = &p->wall[k];
         pm_samples_at(q, t->i, phi, x, NULL, NULL);
         t->multiplier =
-            fmax(t->multiplier + rho[1] * (p->strict[1] - gap(p, t, x, phi) / t->limit), 0);
+            fmax(t->multiplier + rho[1] * (p->strict - gap(p, t, x, phi) / t->limit), 0);
     }
 }
 

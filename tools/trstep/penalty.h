@@ -47,8 +47,8 @@ struct penalty {
     struct penalty_wall *wall; /* (nwall + 1): an end behind the last */
     int32_t *col;              /* weights of the feet: global control point, weight (nw) */
     double *weight;
-    double strict[2]; /* what is asked of curvature and distances over their limits; 1 at first */
-    double cover;     /* samples lie closer than this to every point of a surface [mm] */
+    double strict; /* what is asked of distances over their limits; 1 at first */
+    double cover;  /* samples lie closer than this to every point of a surface [mm] */
 };
 
 struct penalty_value {

@@ -166,7 +166,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
         pm_surfaces_scatter(&s->trial, p->trial);
         PM_TRY(trstep_measure(&s->trial, sum, seen, err));
         if (seen[1] > ALLOWED[1] && seen[1] > s->worst[1])
-            p->penalty.strict[1] *= 1 + seen[1] - fmax(s->trial_worst[1], WANTED[1]);
+            p->penalty.strict *= 1 + seen[1] - fmax(s->trial_worst[1], WANTED[1]);
         s->trial_worst[1] = fmax(s->trial_worst[1], seen[1]);
         pm_log(2, "seen: %.4f %.4f", seen[0], seen[1]);
         if (fit(s, ALLOWED))
@@ -196,7 +196,7 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
         }
         s->radius /= 2;
         memcpy(p->rho, start, sizeof start);
-        p->penalty.strict[0] = p->penalty.strict[1] = 1;
+        p->penalty.strict = 1;
         for (ptrdiff_t i = 0; i < 3 * p->N; i++)
             p->step[i] /= 2;
         move(p, p->step);
