@@ -2,23 +2,12 @@
 # surfexport: every product and format of a small robot, judged by ADMesh and gmsh; equal bytes; what it refuses.
 # shellcheck disable=SC2317 # functions that check calls
 . tests/lib.sh
+. tests/admesh.sh
 
 out=$work/output
 export=$BIN/surfexport
 check "surfaces" "$BIN/surfgen" -q tests/data/tiny.ini -o "$work/s.h5"
 
-# sound FILE PARTS: ADMesh finds that many closed parts and nothing to repair.
-sound() {
-    admesh "$1" >"$work/admesh" 2>&1
-    cat "$work/admesh"
-    awk -v parts="$2" '
-        /disconnected/ { open += $NF + $(NF - 1) }
-        /^Number of parts/ { n = $5 }
-        /^(Degenerate facets|Edges fixed|Facets removed|Facets added|Facets reversed|Backwards edges|Normals fixed)/ {
-            seen++
-            split($0, p, ":"); repaired += p[2] }
-        END { exit !(seen == 7 && repaired == 0 && open == 0 && n == parts) }' "$work/admesh"
-}
 volume() {
     admesh "$1" | sed -n 's/.*Volume *: *//p'
 }

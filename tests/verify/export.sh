@@ -3,6 +3,7 @@
 # be, and of the volume of the volume mesh.
 # shellcheck disable=SC2317 # functions that check calls
 . tests/lib.sh
+. tests/admesh.sh
 
 check "surfaces" "$BIN/surfgen" -q data/cases/2A0R2T.ini -o "$work/s.h5"
 check "mesh" "$BIN/tetmesh" -q --symmetry none --size 5 "$work/s.h5" -o "$work/mesh.h5"
@@ -10,18 +11,6 @@ check "mesh" "$BIN/tetmesh" -q --symmetry none --size 5 "$work/s.h5" -o "$work/m
 result $? "its volumes"
 sed 's/^/# /' "$work/volumes"
 
-# sound FILE PARTS: nothing to repair.
-sound() {
-    admesh "$1" >"$work/admesh" 2>&1
-    cat "$work/admesh"
-    awk -v parts="$2" '
-        /disconnected/ { open += $NF + $(NF - 1) }
-        /^Number of parts/ { n = $5 }
-        /^(Degenerate facets|Edges fixed|Facets removed|Facets added|Facets reversed|Backwards edges|Normals fixed)/ {
-            seen++
-            split($0, p, ":"); repaired += p[2] }
-        END { exit !(seen == 7 && repaired == 0 && open == 0 && n == parts) }' "$work/admesh"
-}
 for part in body:3 chamber1:1 chamber2:1 mould1:1 mould2:1 core1:1 core2:1 plate:1; do
     name=${part%:*}
     check "$name" "$BIN/surfexport" -q --tolerance 0.2 --what "$name" "$work/s.h5" -o "$work/$name.stl"
