@@ -37,22 +37,65 @@ void pm_rim_constrain(int32_t type, unsigned rim, double S[3])
 }
 
 /* Largest principal curvature |k| = |H| + sqrt(H^2 - K) [model 6.2]. */
-static double curvature(const double r_a[6], const double r_ab[9], const double n[3])
+static double curvature(const double r_a[6], const double r_ab[9])
 {
+    const double *u = r_a, *v = r_a + 3;
+    const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                         u[0] * v[1] - u[1] * v[0]};
     double g[3] = {0}, b[3] = {0};
     for (int i = 0; i < 3; i++) {
-        g[0] += r_a[i] * r_a[i];
-        g[1] += r_a[i] * r_a[3 + i];
-        g[2] += r_a[3 + i] * r_a[3 + i];
+        g[0] += u[i] * u[i];
+        g[1] += u[i] * v[i];
+        g[2] += v[i] * v[i];
         for (int k = 0; k < 3; k++)
             b[k] += r_ab[3 * k + i] * n[i];
     }
-    const double det = g[0] * g[2] - g[1] * g[1];
+    const double det = g[0] * g[2] - g[1] * g[1]; /* |n|^2 */
     if (!(det > 0))
         return INFINITY;
     const double H = (g[2] * b[0] - 2 * g[1] * b[1] + g[0] * b[2]) / (2 * det);
     const double K = (b[0] * b[2] - b[1] * b[1]) / det;
-    return fabs(H) + sqrt(fmax(H * H - K, 0));
+    return (fabs(H) + sqrt(fmax(H * H - K, 0))) / sqrt(det);
+}
+
+static double distance(const double p[3], const double q[3])
+{
+    return sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
+                (p[2] - q[2]) * (p[2] - q[2]));
+}
+
+static enum pm_status size_at(struct pm_edit *m, const struct pm_remesh_opts *o, const double S[3],
+                              double *size, struct pm_err *err)
+{
+    enum pm_status status;
+    double r_a[6], r_ab[9];
+    PM_TRY(pm_map_point(m->map, m->phi, S, &m->basis, NULL, r_a, r_ab, err));
+    const double k = curvature(r_a, r_ab);
+    const double bound = o->chord > 0 ? sqrt(8 * o->chord / k) : o->size;
+    *size = fmax(o->size_min, fmin(fmin(o->size, bound), o->crest / k));
+done:
+    return status;
+}
+
+/* Only the middle of an edge sees the crest that it spans. */
+static enum pm_status look_between(struct pm_edit *m, const struct pm_remesh_opts *o,
+                                   struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    for (ptrdiff_t t = 0; t < m->nt; t++)
+        for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
+            const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
+            double S[3], h;
+            if (a > b && !(m->rim[a] & m->rim[b])) /* the other triangle's turn */
+                continue;
+            pm_map_middle(m->type, m->S + 3 * a, m->S + 3 * b, S);
+            PM_TRY(size_at(m, o, S, &h, err));
+            h += o->growth * distance(m->x + 3 * a, m->x + 3 * b) / 2;
+            m->size[a] = fmin(m->size[a], h);
+            m->size[b] = fmin(m->size[b], h);
+        }
+done:
+    return status;
 }
 
 /* Wanted length at every node, then at most `growth` per unit length along edges. */
@@ -60,24 +103,17 @@ static enum pm_status set_sizes(struct pm_edit *m, const struct pm_remesh_opts *
                                 struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    for (ptrdiff_t a = 0; a < m->nn; a++) {
-        double r_a[6], r_ab[9];
-        if (m->degree[a] == 0)
-            continue;
-        PM_TRY(pm_map_point(m->map, m->phi, m->S + 3 * a, &m->basis, NULL, r_a, r_ab, err));
-        const double k = curvature(r_a, r_ab, m->normal + 3 * a);
-        const double bound = o->chord > 0 ? sqrt(8 * o->chord / k) : o->size;
-        m->size[a] = fmax(o->size_min, fmin(fmin(o->size, bound), o->crest / k));
-    }
+    for (ptrdiff_t a = 0; a < m->nn; a++)
+        if (m->degree[a] > 0)
+            PM_TRY(size_at(m, o, m->S + 3 * a, &m->size[a], err));
+    if (o->size_min < o->size)
+        PM_TRY(look_between(m, o, err));
     for (int pass = 0, changed = 1; pass < 20 && changed; pass++) {
         changed = 0;
         for (ptrdiff_t t = 0; t < m->nt; t++) {
             for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
                 const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
-                const double *p = m->x + 3 * a, *q = m->x + 3 * b;
-                const double l =
-                    sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
-                         (p[2] - q[2]) * (p[2] - q[2]));
+                const double l = distance(m->x + 3 * a, m->x + 3 * b);
                 const double ha = fmin(m->size[a], m->size[b] + o->growth * l);
                 const double hb = fmin(m->size[b], m->size[a] + o->growth * l);
                 changed |= ha < m->size[a] * (1 - 1e-3) || hb < m->size[b] * (1 - 1e-3);

@@ -147,6 +147,50 @@ static void check_tube(const struct pm_surface *s, double R, double H, struct pm
     pm_patch_release(&p);
 }
 
+/* Largest height of the surface over the middle of an edge, in parts of the edge. */
+static enum pm_status arch(const struct pm_surface *s, const struct pm_patch *p, double *worst,
+                           struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_map *map = NULL;
+    struct pm_basis work = {0};
+    *worst = 0;
+    PM_TRY(pm_map_new(s, &map, err));
+    for (ptrdiff_t i = 0; i < 3 * p->nt; i++) {
+        const ptrdiff_t a = p->tri[i], b = p->tri[i % 3 == 2 ? i - 2 : i + 1];
+        double S[3], r[3], middle[3];
+        pm_map_middle(s->type, p->S + 3 * a, p->S + 3 * b, S);
+        PM_TRY(pm_map_point(map, s->phi, S, &work, r, NULL, NULL, err));
+        for (int j = 0; j < 3; j++)
+            middle[j] = (p->x[3 * a + j] + p->x[3 * b + j]) / 2;
+        *worst = fmax(*worst, length(r, middle) / length(p->x + 3 * a, p->x + 3 * b));
+    }
+done:
+    pm_map_free(map);
+    pm_basis_release(&work);
+    return status;
+}
+
+/* A ridge around the tube that edges of the wanted length would span unseen. */
+static void check_ridge(struct pm_surface *s, struct pm_err *err)
+{
+    const struct pm_remesh_opts o = {
+        .size = 8, .size_min = 0.8, .crest = 1.2, .growth = 0.35, .sweeps = 8};
+    struct pm_patch p = {0};
+    double worst = 1;
+    const double middle = s->phi[3 * (s->n / 2) + 2];
+    for (ptrdiff_t m = 0; m < s->n; m++) { /* one row out, its neighbours close to it */
+        double *x = s->phi + 3 * m, z = x[2] - middle;
+        x[0] *= fabs(z) < 1 ? 1.2 : 1;
+        x[1] *= fabs(z) < 1 ? 1.2 : 1;
+        x[2] = middle + (fabs(z) < 8 ? 0.3 : 1) * z;
+    }
+    /* over the arc of a circle of radius R an edge l <= 4/3 crest R rises l^2/(8 R) <= 0.2 l */
+    const int found = pm_remesh(s, 0, &o, &p, err) == PM_OK && arch(s, &p, &worst, err) == PM_OK;
+    ok(found && worst < 0.2, "a ridge is followed within %.3f edges", worst);
+    pm_patch_release(&p);
+}
+
 /* Two tetrahedra as closed surfaces, the second shifted along x. */
 static void tetrahedra(double shift, double x[24], int32_t tri[24])
 {
@@ -204,6 +248,7 @@ int main(void)
     check_sphere(&r.s[1], 0.8, &err);
     check_tube(&r.s[0], 20, 100, &err);
     check_contacts(&err);
+    check_ridge(&r.s[0], &err);
     const struct pm_remesh_opts tiny = {
         .size = 1e-3, .size_min = 1e-3, .crest = 1, .growth = 1, .sweeps = 1};
     ok(pm_remesh(&r.s[1], 1, &tiny, &p, &err) == PM_INPUT && strstr(err.text, "nodes on") != NULL,

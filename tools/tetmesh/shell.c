@@ -73,7 +73,7 @@ enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirro
 {
     enum pm_status status = PM_OK;
     struct pm_remesh_opts o = {
-        .size = size, .size_min = size / 3, .crest = 1.2, .growth = 0.35, .sweeps = 8};
+        .size = size, .size_min = size / 6, .crest = 1.2, .growth = 0.35, .sweeps = 8};
     struct pm_patch patch = {0};
     *shell = (struct pm_shell){.planes = y->planes};
     for (ptrdiff_t k = 0; k < s->ns; k++) {
