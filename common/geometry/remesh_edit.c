@@ -8,7 +8,7 @@
 /* A facet may lean at most this far (cosine) from the surface normal at its nodes; worse ones may
  * only be replaced by better ones. */
 static const double min_cosine = 0.3;
-static const double split_ratio = 4.0 / 3.0, collapse_ratio = 4.0 / 5.0;
+const double pm_edit_longest = 4.0 / 3.0, pm_edit_shortest = 4.0 / 5.0;
 
 double pm_parameter_orientation(int32_t type, const double a[3], const double b[3],
                                 const double c[3])
@@ -67,24 +67,40 @@ static double facet_of(const struct pm_edit *m, ptrdiff_t t)
     return facet(m, v[0], v[1], v[2]);
 }
 
+static double area(const struct pm_edit *m, ptrdiff_t t)
+{
+    const int32_t *v = m->tri + 3 * t;
+    const double *p = m->x + 3 * v[0], *q = m->x + 3 * v[1], *r = m->x + 3 * v[2];
+    double u[3], w[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = q[i] - p[i];
+        w[i] = r[i] - p[i];
+    }
+    const double n[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
+                         u[0] * w[1] - u[1] * w[0]};
+    return sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+}
+
 double pm_edit_area(const struct pm_edit *m)
 {
     double sum = 0;
+    for (ptrdiff_t t = 0; t < m->nt; t++)
+        sum += m->tri[3 * t] >= 0 ? area(m, t) : 0;
+    return sum;
+}
+
+double pm_edit_crowding(const struct pm_edit *m)
+{
+    double wanted_count = 0, count = 0;
     for (ptrdiff_t t = 0; t < m->nt; t++) {
         const int32_t *v = m->tri + 3 * t;
         if (v[0] < 0)
             continue;
-        const double *p = m->x + 3 * v[0], *q = m->x + 3 * v[1], *r = m->x + 3 * v[2];
-        double u[3], w[3];
-        for (int i = 0; i < 3; i++) {
-            u[i] = q[i] - p[i];
-            w[i] = r[i] - p[i];
-        }
-        const double n[3] = {u[1] * w[2] - u[2] * w[1], u[2] * w[0] - u[0] * w[2],
-                             u[0] * w[1] - u[1] * w[0]};
-        sum += sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]) / 2;
+        const double h = (m->size[v[0]] + m->size[v[1]] + m->size[v[2]]) / 3;
+        wanted_count += area(m, t) / (sqrt(3) / 4 * h * h);
+        count++;
     }
-    return sum;
+    return count / wanted_count;
 }
 
 double pm_edit_worst(const struct pm_edit *m, ptrdiff_t a)
@@ -306,19 +322,19 @@ done:
     return status;
 }
 
-enum pm_status pm_edit_split(struct pm_edit *m, ptrdiff_t *count, struct pm_err *err)
+enum pm_status pm_edit_split(struct pm_edit *m, double ratio, ptrdiff_t *count, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     *count = 0;
     const ptrdiff_t nt = m->nt; /* new triangles wait for the flips between two passes */
     for (ptrdiff_t t = 0; t < nt; t++) {
         ptrdiff_t a = -1, b = -1;
-        double longest = split_ratio;
+        double longest = ratio;
         for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
             const ptrdiff_t p = m->tri[3 * t + k], q = m->tri[3 * t + (k + 1) % 3];
-            const double ratio = length(m, p, q) / wanted(m, p, q);
-            if (ratio > longest) {
-                longest = ratio;
+            const double l = length(m, p, q) / wanted(m, p, q);
+            if (l > longest) {
+                longest = l;
                 a = p;
                 b = q;
             }
@@ -370,8 +386,8 @@ static int may_collapse(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
         const int i = corner(m, f, a);
         const ptrdiff_t p = v[(i + 1) % 3], q = v[(i + 2) % 3];
         if (!acceptable(facet(m, b, p, q), before) ||
-            length(m, b, p) > split_ratio * wanted(m, b, p) ||
-            length(m, b, q) > split_ratio * wanted(m, b, q))
+            length(m, b, p) > pm_edit_longest * wanted(m, b, p) ||
+            length(m, b, q) > pm_edit_longest * wanted(m, b, q))
             return 0;
     }
     return 1;
@@ -408,7 +424,7 @@ ptrdiff_t pm_edit_collapse(struct pm_edit *m)
     for (ptrdiff_t t = 0; t < m->nt; t++) {
         for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
             const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
-            if (length(m, a, b) >= collapse_ratio * wanted(m, a, b))
+            if (length(m, a, b) >= pm_edit_shortest * wanted(m, a, b))
                 continue;
             const int forward = may_collapse(m, a, b);
             if (forward || may_collapse(m, b, a)) {

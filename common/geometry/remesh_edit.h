@@ -35,11 +35,13 @@ enum pm_status pm_edit_split_edge(struct pm_edit *m, ptrdiff_t a, ptrdiff_t b, c
 void pm_edit_remove(struct pm_edit *m, ptrdiff_t t);
 /* Cuts along the plane S_axis = 0 and keeps S_axis >= 0; nodes on the plane get its bit of rim. */
 enum pm_status pm_edit_halve(struct pm_edit *m, int axis, struct pm_err *err);
-/* Splits the longest edge of every triangle that has one longer than 4/3 of the wanted length;
- * *count edges. */
-enum pm_status pm_edit_split(struct pm_edit *m, ptrdiff_t *count, struct pm_err *err);
-/* Collapses edges shorter than 4/5 of the wanted length where topology, orientation, normals and
- * the lengths of the new edges allow; returns their number. */
+/* Lengths that edges keep, in parts of the wanted one. */
+extern const double pm_edit_longest, pm_edit_shortest;
+/* Splits the longest edge of every triangle that has one longer than `ratio` times the wanted
+ * length; *count edges. */
+enum pm_status pm_edit_split(struct pm_edit *m, double ratio, ptrdiff_t *count, struct pm_err *err);
+/* Collapses edges shorter than pm_edit_shortest times the wanted length where topology,
+ * orientation, normals and the lengths of the new edges allow; returns their number. */
 ptrdiff_t pm_edit_collapse(struct pm_edit *m);
 /* Delaunay flips in configuration; returns their number. */
 ptrdiff_t pm_edit_flip(struct pm_edit *m);
@@ -48,6 +50,8 @@ ptrdiff_t pm_edit_flip(struct pm_edit *m);
 double pm_edit_worst(const struct pm_edit *m, ptrdiff_t a);
 /* Area of all triangles [mm2]. */
 double pm_edit_area(const struct pm_edit *m);
+/* Number of triangles over that of equilateral ones with edges of the wanted length. */
+double pm_edit_crowding(const struct pm_edit *m);
 /* Drops what was removed and hands the arrays over. */
 enum pm_status pm_edit_finish(struct pm_edit *m, struct pm_patch *p, struct pm_err *err);
 

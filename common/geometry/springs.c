@@ -167,7 +167,7 @@ static enum pm_status resize(struct pm_edit *m, double size, struct pm_err *err)
     for (ptrdiff_t a = 0; a < m->nn; a++)
         m->size[a] = size;
     for (int pass = 0; pass < 20 && count > 0; pass++) {
-        PM_TRY(pm_edit_split(m, &count, err));
+        PM_TRY(pm_edit_split(m, pm_edit_longest, &count, err));
         count += pm_edit_collapse(m);
         pm_edit_flip(m);
     }
