@@ -40,7 +40,8 @@ STATES := $(POINTS:%=$D/state-%.h5)
 SENSES := $(POINTS:%=$D/sens-%.h5)
 FIRST := $(filter 0,$(NUMBER))
 # trstep says when control points and mesh are to be renewed; that is an iteration of its own, of the accepted design.
-RENEW := $(if $(FIRST),,$(filter renew,$(shell $(BIN)/trstep --next $(PREV)/step.h5)))
+NEXT := $(if $(FIRST),,$(shell $(BIN)/trstep --next $(PREV)/step.h5))
+RENEW := $(filter renew,$(NEXT))
 
 STAGE = pipelines/stage.sh '$(RUN)' '$(ITER)'
 # The last accepted iteration, whose mesh and states are the nearest ones.
@@ -62,8 +63,9 @@ else
 SURF := $(PREV)/step.h5
 endif
 
-# Trials are compared on one mesh, morphed; where it does not bear that, the next iteration renews it.
-PREVIOUS_MESH = $(if $(FIRST)$(RENEW),,--previous $(LAST)/mesh.h5 --keep-mesh)
+# Trials are compared on one mesh, morphed; where it does not bear that, the next iteration renews it, or the trial is
+# meshed anew if it is a leap.
+PREVIOUS_MESH = $(if $(FIRST)$(RENEW),,--previous $(LAST)/mesh.h5 $(if $(filter trial,$(NEXT)),--keep-mesh))
 GUESS = $(if $(FIRST),,--guess $(LAST)/$(@F))
 PREVIOUS_STEP = $(if $(FIRST),,--previous $(PREV)/step.h5)
 SIGN = $(if $(FIRST),,--sign-from $(RUN)/it000/work.h5)

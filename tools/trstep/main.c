@@ -8,7 +8,7 @@ static const struct pm_option OPTIONS[] = {
     {"history", 0, "STEP.h5", "print the history of a step file as a table, tab separated"},
     {"verdict", 0, "STEP.h5", "print the verdict of a step file: continue, converged or stalled"},
     {"next", 0, "STEP.h5",
-     "print what a step file proposes: trial, or renew (the accepted design)"},
+     "print what a step file proposes: trial, leap (any mesh may judge it) or renew"},
     {0},
 };
 

@@ -63,7 +63,7 @@ enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struc
     const double edge = 0.65 * s->pcase.wall_min;
     double *phi = NULL;
 
-    *p = (struct penalty){.s = s, .c = &s->pcase, .cover = edge / sqrt(3.0), .strict = 1};
+    *p = (struct penalty){.s = s, .c = &s->pcase, .cover = edge / sqrt(3.0)};
     PM_TRY(pm_samples_with_nodes(s, edge, 2, &p->samples, err));
     const ptrdiff_t n = p->samples.n;
     PM_TRY(PM_NEW(p->from, n, err));
@@ -167,8 +167,8 @@ static void add_walls(const struct penalty *p, const double *phi, double rho, do
         const struct penalty_wall *t = &p->wall[k];
         if (k == 0 || t[-1].i != t->i)
             pm_samples_at(&p->samples, t->i, phi, x, NULL, NULL);
-        const double lack = 1 - gap(p, t, x, phi) / t->limit, g = lack + p->strict - 1;
-        v->worst[1] = fmax(v->worst[1], lack);
+        const double g = 1 - gap(p, t, x, phi) / t->limit;
+        v->worst[1] = fmax(v->worst[1], g);
         const double f = enter(v, 1, p->share[t->i], t->multiplier, rho, g) / t->limit;
         if (gradient == NULL || !(f > 0))
             continue;
@@ -235,8 +235,7 @@ void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
     for (ptrdiff_t k = 0; k < p->nwall; k++) {
         struct penalty_wall *t = &p->wall[k];
         pm_samples_at(q, t->i, phi, x, NULL, NULL);
-        t->multiplier =
-            fmax(t->multiplier + rho[1] * (p->strict - gap(p, t, x, phi) / t->limit), 0);
+        t->multiplier = fmax(t->multiplier + rho[1] * (1 - gap(p, t, x, phi) / t->limit), 0);
     }
 }
 

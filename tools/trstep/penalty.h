@@ -47,15 +47,13 @@ struct penalty {
     struct penalty_wall *wall; /* (nwall + 1): an end behind the last */
     int32_t *col;              /* weights of the feet: global control point, weight (nw) */
     double *weight;
-    double strict; /* what is asked of distances over their limits; 1 at first */
-    double cover;  /* samples lie closer than this to every point of a surface [mm] */
+    double cover; /* samples lie closer than this to every point of a surface [mm] */
 };
 
 struct penalty_value {
     double lagrangian;
     double sum[2];   /* C_c, C_t */
-    double worst[2]; /* largest relative excess of curvature and lack of distance, >= 0; of the
-                        limits themselves, as strict is 1 */
+    double worst[2]; /* largest relative excess of curvature and lack of distance, >= 0 */
 };
 
 enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struct pm_err *err);

@@ -2,6 +2,9 @@
 
 #include "tools/trstep/trstep.h"
 
+/* Several times the difference that a new mesh makes. */
+static const double LEAP = 0.1;
+
 /* `-` where a failed design has no value and where there is no reason. */
 static void print_row(const struct pm_trial *t)
 {
@@ -29,7 +32,7 @@ enum pm_status trstep_print(const struct trstep_opts *opts, struct pm_err *err)
                                               : opts->history,
                         &s, err));
     if (opts->next != NULL) {
-        puts(s.renew ? "renew" : "trial");
+        puts(s.renew ? "renew" : s.gain > LEAP * s.value ? "leap" : "trial");
         goto done;
     }
     if (opts->verdict != NULL) {

@@ -149,31 +149,53 @@ done:
     return status;
 }
 
-/* Solves, and asks more of the samples where new ones, placed for the proposal, see it violate what
- * they do not. */
+/* Samples placed for the proposal, with its constraints and what they see of it. */
+static enum pm_status look(struct proposal *p, struct penalty *fresh, double seen[2],
+                           struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_step *s = p->s;
+    struct penalty_value v;
+
+    move(p, p->step);
+    pm_symmetrise_points(&s->accepted, p->trial);
+    pm_surfaces_scatter(&s->trial, p->trial);
+    PM_TRY(penalty_new(&s->trial, fresh, err));
+    PM_TRY(penalty_collect(fresh, p->trial, reach(s), 0.8, err));
+    penalty_at(fresh, p->trial, p->rho, NULL, &v);
+    memcpy(seen, v.worst, sizeof v.worst);
+done:
+    return status;
+}
+
+/* Solves, and again with samples placed for the proposal where these see it violate what the
+ * earlier ones did not. */
 static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_step *s = p->s;
-    double sum[2], seen[2] = {0};
+    struct penalty fresh = {.s = NULL};
+    double seen[2] = {0};
 
     for (int k = 0; k <= REVISIONS; k++) {
         PM_TRY(solve(p, err));
         if (!fit(s, ALLOWED))
             break;
-        move(p, p->step);
-        pm_symmetrise_points(&s->accepted, p->trial);
-        pm_surfaces_scatter(&s->trial, p->trial);
-        PM_TRY(trstep_measure(&s->trial, sum, seen, err));
-        if (seen[1] > ALLOWED[1] && seen[1] > s->worst[1])
-            p->penalty.strict *= 1 + seen[1] - fmax(s->trial_worst[1], WANTED[1]);
-        s->trial_worst[1] = fmax(s->trial_worst[1], seen[1]);
+        penalty_release(&fresh);
+        PM_TRY(look(p, &fresh, seen, err));
         pm_log(2, "seen: %.4f %.4f", seen[0], seen[1]);
+        for (int j = 0; j < 2; j++)
+            s->trial_worst[j] = fmax(s->trial_worst[j], seen[j]);
         if (fit(s, ALLOWED))
             break;
+        const struct penalty old = p->penalty;
+        p->penalty = fresh;
+        fresh = old;
     }
     p->peak = seen[0];
+    s->trial_worst[0] = fmin(s->trial_worst[0], ALLOWED[0]);
 done:
+    penalty_release(&fresh);
     return status;
 }
 
@@ -196,7 +218,6 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
         }
         s->radius /= 2;
         memcpy(p->rho, start, sizeof start);
-        p->penalty.strict = 1;
         for (ptrdiff_t i = 0; i < 3 * p->N; i++)
             p->step[i] /= 2;
         move(p, p->step);
