@@ -184,6 +184,8 @@ static inline enum pm_status sample_work(struct pm_work *w, struct pm_err *err)
 {
     enum pm_status status;
     *w = (struct pm_work){.value = 12.5,
+                          .objective = 11.5,
+                          .amplification = 2.25,
                           .name = "2T",
                           .unit = "mm2",
                           .orientation = -1,

@@ -108,12 +108,13 @@ struct pm_case {
     double mesh_size; /* wanted edge length [mm] */
     enum pm_extension_kind extension;
     /* [constraints] */
-    double wall_min;       /* d_min [mm] */
-    double curvature_max;  /* C_max [1/mm] */
-    double cap_min;        /* chambers stay this far from the planes z = 0 and z = H [mm] */
-    enum pm_domain domain; /* where the body stays, between the planes z = 0 and z = H */
-    double domain_radius;  /* cylinder about z [mm] */
-    double domain_half[2]; /* box: half-widths in x and y [mm] */
+    double wall_min;          /* d_min [mm] */
+    double curvature_max;     /* C_max [1/mm] */
+    double amplification_max; /* of dU/dp at one point over the mean, 0: none [1] */
+    double cap_min;           /* chambers stay this far from the planes z = 0 and z = H [mm] */
+    enum pm_domain domain;    /* where the body stays, between the planes z = 0 and z = H */
+    double domain_radius;     /* cylinder about z [mm] */
+    double domain_half[2];    /* box: half-widths in x and y [mm] */
     /* [optimisation] */
     double radius,
         radius_max;    /* trust radius at the start and its cap: rms surface displacement [mm] */

@@ -24,12 +24,19 @@ static const struct item items[] = {
 
 #define AT(member) offsetof(struct pm_trial, member), 1
 static const struct item columns[] = {
-    {"/trial/iteration", AT(iteration)},   {"/trial/accepted", AT(accepted)},
-    {"/trial/renewed", AT(renewed)},       {"/trial/jump", AT(jump)},
-    {"/trial/measure", AT(measure)},       {"/trial/merit", AT(merit)},
-    {"/trial/predicted", AT(predicted)},   {"/trial/ratio", AT(ratio)},
-    {"/trial/radius", AT(radius)},         {"/trial/worst_curvature", AT(worst_curvature)},
-    {"/trial/worst_wall", AT(worst_wall)}, {"/trial/rms_step", AT(rms_step)},
+    {"/trial/iteration", AT(iteration)},
+    {"/trial/accepted", AT(accepted)},
+    {"/trial/renewed", AT(renewed)},
+    {"/trial/jump", AT(jump)},
+    {"/trial/measure", AT(measure)},
+    {"/trial/amplification", AT(amplification)},
+    {"/trial/merit", AT(merit)},
+    {"/trial/predicted", AT(predicted)},
+    {"/trial/ratio", AT(ratio)},
+    {"/trial/radius", AT(radius)},
+    {"/trial/worst_curvature", AT(worst_curvature)},
+    {"/trial/worst_wall", AT(worst_wall)},
+    {"/trial/rms_step", AT(rms_step)},
 };
 #undef AT
 

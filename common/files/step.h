@@ -11,12 +11,13 @@ struct pm_trial {
     int64_t accepted;  /* 1, 0 */
     int64_t renewed;   /* 1: no trial but the accepted design on a new mesh, 2: and with new control
                           points */
-    double jump;       /* relative change of T by that, 0 for a trial */
+    double jump;       /* relative change of the objective by that, 0 for a trial */
     double measure;    /* T; 0 where the design failed (then the reason says why) */
-    double merit;      /* T - rho_c C_c - rho_t C_t with the weights of its sub-problem */
-    double predicted;  /* predicted gain of merit over the last accepted design */
-    double ratio;      /* actual / predicted */
-    double radius;     /* trust radius of its sub-problem [mm] */
+    double amplification; /* largest of its points */
+    double merit;     /* objective - rho_c C_c - rho_t C_t with the weights of its sub-problem */
+    double predicted; /* predicted gain of merit over the last accepted design */
+    double ratio;     /* actual / predicted */
+    double radius;    /* trust radius of its sub-problem [mm] */
     double worst_curvature, worst_wall; /* largest relative violations, >= 0 */
     double rms_step;  /* rms surface displacement from the last accepted design [mm] */
     char reason[160]; /* of a rejection, "" */
@@ -26,16 +27,16 @@ struct pm_step {
     struct pm_surfaces trial;    /* proposed; pcase is the case of the run */
     struct pm_surfaces accepted; /* last accepted design (its pcase is a copy) */
     char verdict[16]; /* continue, converged, stalled; the latter propose the accepted design */
-    double value;     /* T of the accepted design */
-    double *gradient; /* dT/dphi of the accepted design, projected on the symmetric free subspace (N
-                         x 3) */
+    double value;     /* objective of the accepted design */
+    double *gradient; /* its derivative by phi of the accepted design, projected on the symmetric
+                         free subspace (N x 3) */
     double penalty[2],
         worst[2];     /* sums of curvature and wall penalties without weights, largest violations */
     double weight[2]; /* rho_c, rho_t */
     int64_t renew;    /* 1: the proposal is the accepted design itself, to be reconstructed and
                          meshed anew */
     double radius;    /* of the proposal [mm] */
-    double gain;      /* predicted gain of T of the proposal */
+    double gain;      /* predicted gain of the objective of the proposal */
     double trial_penalty[2], trial_worst[2]; /* of the proposal */
     double rms_step, max_step;               /* of the proposal [mm] */
     ptrdiff_t ntrials;

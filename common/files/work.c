@@ -16,6 +16,8 @@ static const struct scalar scalars[] = {
     {"/measure/orientation", AT(orientation)},
     {"/measure/value_other", AT(value_other)},
     {"/measure/quadrature_error", AT(quadrature_error)},
+    {"/measure/objective", AT(objective)},
+    {"/measure/amplification", AT(amplification)},
     {"/measure/min_det", AT(min_det)},
     {"/measure/max_det", AT(max_det)},
     {"/measure/sign_changes", AT(sign_changes)},

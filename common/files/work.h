@@ -7,8 +7,10 @@
 
 struct pm_work {
     struct pm_case pcase;
-    char failure[512]; /* "" or the failure of a state */
-    double value;      /* the measure T = sum_g w_g */
+    char failure[512];    /* "" or the failure of a state */
+    double value;         /* the measure T = sum_g w_g */
+    double objective;     /* f T, what is optimised (amplification.h) */
+    double amplification; /* largest of the points */
     char name[16], unit[16];
     int64_t form;
     double orientation;      /* sigma = +1 or -1, frozen at the first design */
@@ -26,7 +28,7 @@ struct pm_work {
     double *U;                     /* (ng x 6) */
     double *J;                     /* (ng x 6 x nc) */
     double *w;                     /* contribution, sigma and weight included (ng) */
-    double *dw_dU;                 /* (ng x 6) */
+    double *dw_dU;                 /* derivatives of the objective (ng x 6) */
     double *dw_dJ;                 /* (ng x 6 x nc) */
     int64_t *intersections;        /* of the deformed boundary with itself (ng) */
     double *gap;                   /* least distance across air, -1: wide (ng) [mm] */

@@ -1,4 +1,5 @@
 /* Measures against reference values and against differences of themselves. */
+#include "common/actuation/amplification.h"
 #include "common/actuation/measure.h"
 #include "common/base/memory.h"
 #include "tests/actuated.h"
@@ -198,6 +199,37 @@ static void check_refusals(void)
     }
 }
 
+/* Three of four points alike, the last k times as large: its share of the geometric mean is
+ * k^(1/4), so a = k^(3/4) there, and above the limit f = exp(-4 ln(a/limit)^2). */
+static void check_amplification(void)
+{
+    enum { NG = 4, N = 72 };
+    struct pm_case c = {.nchambers = 3, .height = 100, .amplification_max = 2};
+    double J[N], slope[N], want[N], most, other;
+    if (pm_measure_select(&c, "1R2T", &err) != PM_OK)
+        ok(0, "%s", err.text);
+    for (int i = 0; i < N; i++)
+        J[i] = sin(1 + i % 18) * (i % 18 < 9 ? 300 : 3) * (i < 54 ? 1 : 6);
+    double f = pm_amplification(&c, NG, J, &most, slope);
+    near_rel("amplification of the last point", most, pow(6, 0.75), 1e-13);
+    near_rel("f", f, exp(-4 * pow(log(most / 2), 2)), 1e-13);
+    for (int i = 0; i < N; i++) {
+        const double x = J[i], h = 1e-5 * fabs(x);
+        J[i] = x + h;
+        const double up = pm_amplification(&c, NG, J, &other, NULL);
+        J[i] = x - h;
+        want[i] = (up - pm_amplification(&c, NG, J, &other, NULL)) / (2 * h);
+        J[i] = x;
+    }
+    near_array("its derivatives against differences", slope, want, N, 1e-8);
+    c.amplification_max = 4;
+    near_abs("f within the limit", pm_amplification(&c, NG, J, &most, slope), 1, 0);
+    c.amplification_max = 0;
+    near_abs("f without one", pm_amplification(&c, NG, J, &most, slope), 1, 0);
+    memset(J, 0, 18 * sizeof *J);
+    near_abs("f with a point at rest", pm_amplification(&c, NG, J, &most, slope), 1, 0);
+}
+
 int main(void)
 {
     static const char *const names[] = {"2T", "3T", "1R2T", "3R", "3R3T", "2R"};
@@ -230,6 +262,7 @@ int main(void)
            at_rest == 0,
        "nothing at rest");
     check_weights();
+    check_amplification();
     check_manifold();
     check_refusals();
     return tap_done();

@@ -101,6 +101,8 @@ static enum pm_status save(const struct pm_surfaces *s, double value, struct pm_
     double point[36] = {0}, wide = -1;
     struct pm_work w = {.pcase = s->pcase,
                         .value = value,
+                        .objective = value,
+                        .amplification = 1,
                         .name = "2T",
                         .unit = "mm2",
                         .orientation = 1,

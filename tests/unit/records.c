@@ -148,9 +148,10 @@ static void test_work_and_sens(const char *path)
     ok(sample_write(path, "work", &a, &err) == PM_OK, "write work %s", err.text);
     if (!ok(pm_work_load(path, 0, &b, &err) == PM_OK, "load work %s", err.text))
         return;
-    ok(a.value == b.value && a.form == b.form && a.orientation == b.orientation &&
-           a.value_other == b.value_other && a.quadrature_error == b.quadrature_error &&
-           a.min_det == b.min_det && a.max_det == b.max_det && a.sign_changes == b.sign_changes &&
+    ok(a.value == b.value && a.objective == b.objective && a.amplification == b.amplification &&
+           a.form == b.form && a.orientation == b.orientation && a.value_other == b.value_other &&
+           a.quadrature_error == b.quadrature_error && a.min_det == b.min_det &&
+           a.max_det == b.max_det && a.sign_changes == b.sign_changes &&
            strcmp(a.name, b.name) == 0 && strcmp(a.unit, b.unit) == 0,
        "scalars come back");
     ok(a.ng == b.ng && a.nc == b.nc && SAME(a.load, b.load, a.ng) && SAME(a.U, b.U, 6 * a.ng) &&

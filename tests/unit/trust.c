@@ -20,12 +20,12 @@ static struct pm_step promise(void)
 static void check_judgements(void)
 {
     struct pm_step s = promise();
-    struct pm_work w = {.value = 50};
+    struct pm_work w = {.objective = 50};
     struct judgement j;
 
     trust_judge(NULL, &w, &j);
     ok(j.accepted, "the first design is accepted");
-    w.value = 109;
+    w.objective = 109;
     trust_judge(&s, &w, &j);
     ok(j.accepted && fabs(j.ratio - 0.9) < 1e-12, "0.9 of the prediction: accepted");
     near_rel("and the radius grows", trust_radius(&s, &j), 0.45, 1e-12);
@@ -36,26 +36,26 @@ static void check_judgements(void)
     s.radius = s.rms_step = 0.9;
     near_rel("nor beyond its cap", trust_radius(&s, &j), 1, 1e-12);
     s = promise();
-    w.value = 102;
+    w.objective = 102;
     trust_judge(&s, &w, &j);
     ok(j.accepted, "0.2 of the prediction: accepted");
     near_rel("and the radius shrinks", trust_radius(&s, &j), 0.2, 1e-12);
-    w.value = 100.5;
+    w.objective = 100.5;
     trust_judge(&s, &w, &j);
     ok(!j.accepted && j.reason[0] != '\0', "0.05 of the prediction: rejected, %s", j.reason);
     near_rel("and the radius is a third", trust_radius(&s, &j), 0.1, 1e-12);
     /* the merit would rise by 30 for less curvature, but T falls */
     s.weight[0] = 1;
     s.penalty[0] = 30;
-    w.value = 99;
+    w.objective = 99;
     trust_judge(&s, &w, &j);
     ok(!j.accepted, "T fell: rejected whatever the merit, %s", j.reason);
-    w.value = 101;
+    w.objective = 101;
     trust_judge(&s, &w, &j);
     near_rel("ratio of merits", j.ratio, 31.0 / 40, 1e-12);
     s = promise();
     s.renew = 1;
-    w.value = 60;
+    w.objective = 60;
     trust_judge(&s, &w, &j);
     ok(j.accepted && j.renewed, "a renewed design is accepted whatever it is worth");
     near_rel("and the radius stays", trust_radius(&s, &j), 0.3, 1e-12);
@@ -64,7 +64,7 @@ static void check_judgements(void)
     s.gain = -2;
     s.weight[1] = 1;
     s.penalty[1] = 30;
-    w.value = 98;
+    w.objective = 98;
     trust_judge(&s, &w, &j);
     ok(j.accepted && fabs(j.ratio - 1) < 1e-12, "T falls as promised for a wall: accepted");
     memcpy(w.failure, "no equilibrium", 15);
@@ -78,7 +78,7 @@ static void check_renewal(void)
     const struct pm_case c = {.remesh_every = 3};
     struct pm_trial t[4] = {{.accepted = 1}, {.accepted = 1}, {.accepted = 0}, {.accepted = 1}};
     struct pm_step s = promise();
-    struct pm_work w = {.value = 0};
+    struct pm_work w = {.objective = 0};
     struct judgement j = {.accepted = 1};
     ok(!trust_renew(&c, t, 1, &j) && !trust_renew(&c, t, 2, &j) && trust_renew(&c, t, 3, &j),
        "every third trial renews the design");

@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "common/actuation/amplification.h"
 #include "common/actuation/measure.h"
 #include "common/base/memory.h"
 #include "common/mechanics/adjoint.h"
@@ -21,8 +22,9 @@ struct probe {
     double *x0, *dx; /* node positions at the design and their rate along the direction (nn x 3) */
 };
 
-/* Contribution of the point at x0 + s dx: solved from the state as guess. */
-static enum pm_status evaluate(const struct probe *pr, double s, double *w, struct pm_err *err)
+/* The objective at x0 + s dx, all other points as they are: solved from the state as guess. */
+static enum pm_status evaluate(const struct probe *pr, double s, double *objective,
+                               struct pm_err *err)
 {
     enum pm_status status;
     struct adjsens_point *pt = pr->pt;
@@ -32,7 +34,8 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *w, stru
     struct pm_config c = {0};
     struct pm_solve_report report;
     struct pm_solve_options o = pm_solve_default;
-    double *f = NULL, *V = NULL, *Jq = NULL, *J = NULL, *dJ = NULL, dU[6];
+    double *f = NULL, *V = NULL, *Jq = NULL, *J = NULL, *dJ = NULL, dU[6], w, most;
+    double *own = pt->work.J + 6 * nc * pt->row;
     o.tolerance = 2e-10; /* a little above the rounding floor of the residual */
     for (ptrdiff_t k = 0; k < 3 * mesh->nn; k++)
         mesh->x[k] = pr->x0[k] + s * pr->dx[k];
@@ -46,9 +49,13 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *w, stru
     PM_TRY(PM_NEW(dJ, 6 * nc, err));
     PM_TRY(pm_equilibrium(m, pt->p, &o, &(struct pm_guess){.at = pt->p}, &c, V, f, &report, err));
     PM_TRY(pm_jacobian(m, &c, m->law.mu, Jq, J, err));
-    PM_TRY(pm_measure_point(&mesh->pcase, (enum pm_form)pt->state.form, &pr->load, c.U, J, w, dU,
+    PM_TRY(pm_measure_point(&mesh->pcase, (enum pm_form)pt->state.form, &pr->load, c.U, J, &w, dU,
                             dJ, err));
-    *w *= pr->sigma_weight;
+    const double value = pt->work.value - pt->work.w[pt->row] + pr->sigma_weight * w;
+    memcpy(dJ, own, (size_t)(6 * nc) * sizeof *dJ);
+    memcpy(own, J, (size_t)(6 * nc) * sizeof *own);
+    *objective = value * pm_amplification(&mesh->pcase, pt->work.ng, pt->work.J, &most, NULL);
+    memcpy(own, dJ, (size_t)(6 * nc) * sizeof *own);
 done:
     memcpy(mesh->x, pr->x0, 3 * (size_t)mesh->nn * sizeof *mesh->x);
     pm_model_free(m);

@@ -133,7 +133,7 @@ static enum pm_status set_base(const struct trial *t, char *const *sens, int nse
         PM_TRY(sum_gradient(t, sens, nsens, s->gradient, err));
     else
         memcpy(s->gradient, t->previous.gradient, (size_t)(3 * N) * sizeof *s->gradient);
-    s->value = t->judgement.accepted ? t->work.value : t->previous.value;
+    s->value = t->judgement.accepted ? t->work.objective : t->previous.value;
     s->radius =
         t->before != NULL ? trust_radius(t->before, &t->judgement) : t->surfaces.pcase.radius;
     for (int k = 0; k < 2; k++)
@@ -148,20 +148,22 @@ static enum pm_status add_row(const struct trial *t, struct pm_step *s, struct p
     enum pm_status status;
     const struct pm_step *b = t->before;
     const ptrdiff_t n = b != NULL ? b->ntrials : 0;
-    struct pm_trial row = {
-        .iteration = n, .accepted = t->judgement.accepted, .measure = t->work.value};
+    struct pm_trial row = {.iteration = n,
+                           .accepted = t->judgement.accepted,
+                           .measure = t->work.value,
+                           .amplification = t->work.amplification};
 
     PM_TRY(PM_NEW(s->trials, n + 1, err));
     if (b != NULL) {
         memcpy(s->trials, b->trials, (size_t)n * sizeof *b->trials);
-        row.merit = trust_merit(row.measure, b->weight, b->trial_penalty);
+        row.merit = trust_merit(t->work.objective, b->weight, b->trial_penalty);
         row.predicted = trust_merit(b->value + b->gain, b->weight, b->trial_penalty) -
                         trust_merit(b->value, b->weight, b->penalty);
         row.ratio = t->judgement.ratio;
         row.radius = b->radius;
         row.rms_step = b->rms_step;
         row.renewed = b->renew + t->rebuilt;
-        row.jump = b->renew && t->judgement.accepted ? row.measure / b->value - 1 : 0;
+        row.jump = b->renew && t->judgement.accepted ? t->work.objective / b->value - 1 : 0;
         row.worst_curvature = b->trial_worst[0];
         row.worst_wall = b->trial_worst[1];
     } else {

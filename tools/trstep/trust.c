@@ -24,14 +24,14 @@ void trust_judge(const struct pm_step *previous, const struct pm_work *work, str
         return;
     }
     const double before = trust_merit(previous->value, previous->weight, previous->penalty);
-    const double after = trust_merit(work->value, previous->weight, previous->trial_penalty);
+    const double after = trust_merit(work->objective, previous->weight, previous->trial_penalty);
     const double promised =
         trust_merit(previous->value + previous->gain, previous->weight, previous->trial_penalty) -
         before;
     j->ratio = promised > 0 ? (after - before) / promised : 0;
-    if (!(work->value > previous->value) && !(previous->gain < 0))
-        snprintf(j->reason, sizeof j->reason, "the measure fell by %.3g %%",
-                 100 * (1 - work->value / previous->value));
+    if (!(work->objective > previous->value) && !(previous->gain < 0))
+        snprintf(j->reason, sizeof j->reason, "the objective fell by %.3g %%",
+                 100 * (1 - work->objective / previous->value));
     else if (!(j->ratio >= 0.1))
         snprintf(j->reason, sizeof j->reason,
                  "the merit rose by %.2g of the prediction, expected 0.1", j->ratio);

@@ -2,6 +2,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "common/actuation/amplification.h"
 #include "common/actuation/measure.h"
 #include "common/base/memory.h"
 #include "tools/wsint/wsint.h"
@@ -89,6 +90,7 @@ enum pm_status wsint_integrate(const struct pm_case *c, const struct wsint_point
 {
     enum pm_status status;
     const ptrdiff_t nc = c->nchambers;
+    double *df_dJ = NULL;
 
     PM_TRY(allocate(work, s->ng, nc, err));
     work->form = s->form;
@@ -109,14 +111,18 @@ enum pm_status wsint_integrate(const struct pm_case *c, const struct wsint_point
     if (work->orientation == 0)
         work->orientation = work->value < 0 ? -1 : 1;
     work->value *= work->orientation;
+    PM_TRY(PM_NEW(df_dJ, 6 * nc * s->ng, err));
+    const double f = pm_amplification(c, s->ng, work->J, &work->amplification, df_dJ);
+    work->objective = f * work->value;
     for (ptrdiff_t g = 0; g < s->ng; g++) {
-        const double scale = work->orientation * s->loads[g].weight;
+        const double scale = f * work->orientation * s->loads[g].weight;
         work->w[g] *= work->orientation;
         for (ptrdiff_t i = 0; i < 6; i++)
             work->dw_dU[6 * g + i] *= scale;
-        for (ptrdiff_t i = 0; i < 6 * nc; i++)
-            work->dw_dJ[6 * nc * g + i] *= scale;
+        for (ptrdiff_t i = 6 * nc * g; i < 6 * nc * (g + 1); i++)
+            work->dw_dJ[i] = scale * work->dw_dJ[i] + work->value * df_dJ[i];
     }
 done:
+    pm_free(df_dJ);
     return status;
 }

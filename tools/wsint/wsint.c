@@ -145,8 +145,11 @@ static void summarise(const struct pm_work *w)
     }
     if (w->quadrature_error >= 0)
         snprintf(error, sizeof error, ", quadrature error %.2g", w->quadrature_error);
-    pm_log(1, "%s = %.6g %s from %td points (%s form), det J %.3g to %.3g%s", w->name, w->value,
-           w->unit, w->ng, pm_form_name((enum pm_form)w->form), w->min_det, w->max_det, error);
+    pm_log(1,
+           "%s = %.6g %s from %td points (%s form), det J %.3g to %.3g, amplification %.3g, "
+           "objective %.6g%s",
+           w->name, w->value, w->unit, w->ng, pm_form_name((enum pm_form)w->form), w->min_det,
+           w->max_det, w->amplification, w->objective, error);
 }
 
 static enum pm_status show(const struct pm_common *common, struct pm_err *err)
