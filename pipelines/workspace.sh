@@ -1,9 +1,9 @@
 #!/bin/bash
-# workspace.sh RUN CASE STEP SIZE: the dense workspace of a design and its Gauss values (workspace.mk).
+# workspace.sh RUN CASE STEP SIZE MEASURE: the dense workspace of a design and its Gauss values (workspace.mk).
 set -eu
 shopt -s inherit_errexit
 export LC_ALL=C
-run=$1 case=$2 step=$3 size=$4
+run=$1 case=$2 step=$3 size=$4 measure=$5
 
 fail() {
     echo "workspace: $1" >&2
@@ -11,12 +11,15 @@ fail() {
 }
 
 [ -n "$run$case" ] || fail 'no design, expected CASE=data/cases/NAME.ini or RUN=run/NAME'
-sign=()
+sign=() other=(${measure:+--measure "$measure"})
 if [ -n "$case" ]; then
     [ -r "$case" ] || fail "cannot read '$case'"
-    run=${run:-run/$(basename "$case" .ini)}
+    run=${run:-run/$(basename "$case" .ini)${measure:+-$measure}}
     out=$run/workspace
     mkdir -p "$out"
+    # another case or size: nothing of the last one serves
+    { cmp -s "$case" "$out/case.ini" && cmp -s <(echo "$size") "$out/size"; } ||
+        { rm -f "$out"/*; cp "$case" "$out/case.ini"; echo "$size" >"$out/size"; }
     [ -e "$out/surf.h5" ] || "$BIN/surfgen" "$case" -o "$out/surf.h5"
     [ -e "$out/mesh.h5" ] || "$BIN/tetmesh" ${size:+--size "$size"} "$out/surf.h5" -o "$out/mesh.h5"
 else
@@ -36,7 +39,7 @@ list() {
     if cmp -s "$out/$1.new" "$out/$1.txt"; then rm "$out/$1.new"; else mv "$out/$1.new" "$out/$1.txt"; fi
 }
 
-"$BIN/wsint" --boundary "$step" "$case" >"$out/boundary"
+"$BIN/wsint" "${other[@]}" --boundary "$step" "$case" >"$out/boundary"
 points=$(wc -l <"$out/boundary")
 parts=$(((points + 63) / 64))
 parts=$((parts < 2 ? 2 : parts))
@@ -50,7 +53,7 @@ done
 rules=()
 for form in boundary volume; do
     for m in 2 3; do
-        "$BIN/wsint" --points --form $form --per-axis $m "$case" >"$out/points" 2>/dev/null || continue
+        "$BIN/wsint" "${other[@]}" --points --form $form --per-axis $m "$case" >"$out/points" 2>/dev/null || continue
         awk -F '\t' 'NR > 1 { for (i = 6; i <= NF; i++) printf "%s%s", $i, i < NF ? " " : "\n" }' "$out/points" | list "$form-$m"
         rules+=("$form-$m")
     done
@@ -59,14 +62,16 @@ gauss=("${rules[@]/#/$out/}")
 # shellcheck disable=SC2086 # JOBS is empty or one option
 "$MAKE" --no-print-directory $JOBS WORKSPACE="$out" "${paths[@]}" "${gauss[@]/%/.h5}"
 
-"$BIN/wsint" --dense "${sign[@]}" "${paths[@]}" -o "$out/workspace.h5"
+"$BIN/wsint" "${other[@]}" --dense "${sign[@]}" "${paths[@]}" -o "$out/workspace.h5"
 "$BIN/wsint" --show "$out/workspace.h5" >"$out/shown"
 for rule in "${rules[@]}"; do
-    "$BIN/wsint" -q --form "${rule%-*}" --per-axis "${rule#*-}" "${sign[@]}" "$out/$rule.h5" -o "$out/$rule-work.h5"
+    "$BIN/wsint" -q "${other[@]}" --form "${rule%-*}" --per-axis "${rule#*-}" "${sign[@]}" "$out/$rule.h5" -o "$out/$rule-work.h5"
     "$BIN/wsint" --show "$out/$rule-work.h5" >"$out/shown-$rule"
 done
 {
-    awk '{ printf "| rule | points | %s [%s] | against dense |\n|---|---|---|---|\n| dense | %s | %s | |\n", $1, $4, "'"$points"'", $3 }' "$out/shown"
+    awk -v points="$points" '{ printf "| rule | points | %s [%s] | against dense |\n|---|---|---|---|\n| dense | %s | %s | |\n", $1, $4, points, $3
+        if (match($0, /twice the interval [^:]*/)) { c = substr($0, RSTART + 19, RLENGTH - 19)
+            printf "| dense, twice the interval | | %s | %+.2g %% |\n", c, 100 * (c / $3 - 1) } }' "$out/shown"
     for rule in "${rules[@]}"; do
         awk -v rule="$rule" 'NR == FNR { dense = $3; next } { match($0, /[0-9]+ points/); printf "| Gauss, %s form, m = %s | %d | %s | %+.2f %% |\n",
             substr(rule, 1, length(rule) - 2), substr(rule, length(rule)), substr($0, RSTART), $3, 100 * ($3 / dense - 1) }' "$out/shown" "$out/shown-$rule"

@@ -150,6 +150,7 @@ static const struct pm_item table[] = {
 
     {"workspace", "/workspace/interval", D, "", "p/mu", "between samples", 1},
     {"workspace", "/workspace/value_polygon", D, "", "see /measure/unit", "measure of the polygon or polyhedron of the samples", 0},
+    {"workspace", "/workspace/value_coarse", D, "", "see /measure/unit", "measure at twice the interval, from every other sample", 0},
     {"workspace", "/workspace/interior", I64, "", "1", "2R: turns of the path about the direction at the centre of the box, else 0", 1},
     {"workspace", "/workspace/intersections", I64, "", "1", "samples where the body penetrates itself", 1},
     {"workspace", "/workspace/tilt", D, "3", "rad", "largest, median and smallest angle of pointing over the samples", 1},

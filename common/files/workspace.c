@@ -28,6 +28,13 @@ static const struct {
 
 enum { NVALUES = sizeof values / sizeof values[0] };
 
+static enum pm_status get_optional(struct pm_h5 *f, const char *name, double *value,
+                                   struct pm_err *err)
+{
+    *value = NAN;
+    return pm_h5_has(f, name) ? pm_h5_get_double(f, name, value, err) : PM_OK;
+}
+
 static enum pm_status read_workspace(struct pm_h5 *f, struct pm_workspace *w, struct pm_err *err)
 {
     enum pm_status status;
@@ -38,9 +45,8 @@ static enum pm_status read_workspace(struct pm_h5 *f, struct pm_workspace *w, st
     for (int i = 0; i < NVALUES; i++)
         PM_TRY(pm_h5_get_into(f, values[i].name, values[i].count > 0 ? values[i].count : 1,
                               (char *)w + values[i].offset, err));
-    w->value_polygon = NAN;
-    if (pm_h5_has(f, "/workspace/value_polygon"))
-        PM_TRY(pm_h5_get_double(f, "/workspace/value_polygon", &w->value_polygon, err));
+    PM_TRY(get_optional(f, "/workspace/value_polygon", &w->value_polygon, err));
+    PM_TRY(get_optional(f, "/workspace/value_coarse", &w->value_coarse, err));
     PM_TRY(pm_h5_get(f, "/workspace/x", d, &w->x, err));
     PM_TRY(pm_h5_get(f, "/workspace/U", d, &w->U, err));
     PM_TRY(pm_h5_get(f, "/workspace/angle", d, &w->angle, err));
@@ -87,6 +93,8 @@ enum pm_status pm_workspace_write(struct pm_h5 *f, const struct pm_workspace *w,
     }
     if (!isnan(w->value_polygon))
         PM_TRY(pm_h5_put_double(f, "/workspace/value_polygon", w->value_polygon, err));
+    if (!isnan(w->value_coarse))
+        PM_TRY(pm_h5_put_double(f, "/workspace/value_coarse", w->value_coarse, err));
     PM_TRY(pm_h5_put(f, "/workspace/x", x, w->x, err));
     PM_TRY(pm_h5_put(f, "/workspace/U", poses, w->U, err));
     PM_TRY(pm_h5_put(f, "/workspace/angle", &w->nn, w->angle, err));

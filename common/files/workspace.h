@@ -12,6 +12,7 @@ struct pm_workspace {
     double value;         /* by Simpson's rule */
     double orientation;   /* sigma */
     double value_polygon; /* of the polygon or polyhedron of the samples; NAN where it has none */
+    double value_coarse;  /* by every other sample; NAN where the intervals do not come in fours */
     double interval;      /* [p/mu] */
     double min_det, max_det;
     int64_t sign_changes;      /* samples where sigma det J < 0 */

@@ -79,7 +79,7 @@ static enum pm_status run_dense(struct pm_workspace *w)
 static void check(const char *measure, const char *chambers, const char *group)
 {
     struct pm_case c = {0};
-    double error[2], polygon[2];
+    double error[2], polygon[2], value[2];
     char name[96];
 
     if (actuated_case(&c, chambers, group, measure, 2, &err) != PM_OK)
@@ -89,13 +89,21 @@ static void check(const char *measure, const char *chambers, const char *group)
         struct pm_workspace w = {.nn = 0};
         ok(write_path(&c, k == 0 ? 0.012 : 0.006, 0, NULL) == PM_OK && run_dense(&w) == PM_OK,
            "%s, %s: %s", measure, group, err.text);
+        value[k] = w.value;
         error[k] = fabs(w.value / want - 1);
         polygon[k] = fabs(w.value_polygon / want - 1);
+        if (k == 0)
+            ok(isnan(w.value_coarse), "ten intervals do not come in fours");
         if (k == 1) {
             printf("# %s, %s: Gauss %.9g, dense %.9g (%.1e, %.1e), polygon %.9g (%.1e, %.1e)\n",
                    measure, group, want, w.value, error[0], error[1], w.value_polygon, polygon[0],
                    polygon[1]);
             ok(w.branch_jumps == 0, "no branch is left");
+            snprintf(name, sizeof name, "%s, %s: by every other sample", measure, group);
+            near_rel(name, w.value_coarse, value[0], 1e-12); /* the same samples, summed alike */
+            const double estimate = fabs(w.value_coarse - w.value) / 15 / want;
+            ok(error[k] < 1e-11 || fabs(estimate / error[k] - 1) < 0.3, "%s: error %.2g, told %.2g",
+               measure, error[k], estimate);
             if (strcmp(measure, "2R") == 0)
                 ok(llabs((long long)w.interior) == 1, "the centre lies inside the path");
             ok(w.tilt[0] >= w.tilt[1] && w.tilt[1] >= w.tilt[2] && w.tilt[2] >= 0, "angles");
