@@ -74,6 +74,7 @@ static const struct key keys[] = {
     {"optimisation", "radius", NUMBER, POSITIVE, AT(c.radius), 0},
     {"optimisation", "radius_max", NUMBER, POSITIVE, AT(c.radius_max), 0},
     {"optimisation", "remesh_every", INTEGER, NOT_NEGATIVE, AT(c.remesh_every), 0},
+    {"optimisation", "secants", INTEGER, NOT_NEGATIVE, AT(c.secants), 0},
     {"optimisation", "max_iterations", INTEGER, POSITIVE, AT(c.max_iterations), 0},
     {"optimisation", "tolerance", NUMBER, POSITIVE, AT(c.tolerance), 0},
 };
@@ -314,6 +315,7 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .radius = 0.3,
                                       .radius_max = 1,
                                       .remesh_every = 5,
+                                      .secants = 5,
                                       .max_iterations = 140,
                                       .tolerance = 1e-2},
                                 .group = "none",

@@ -118,6 +118,7 @@ struct pm_case {
     /* [optimisation] */
     double radius,
         radius_max;    /* trust radius at the start and its cap: rms surface displacement [mm] */
+    long secants;      /* accepted steps that the curvature of the model is made of, 0: linear */
     long remesh_every; /* reconstruction at every n-th iteration, 0: never */
     long max_iterations;
     double tolerance; /* relative change of the measure over five iterations */

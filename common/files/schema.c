@@ -189,6 +189,8 @@ static const struct pm_item table[] = {
     {"step", "/accepted/symmetry/perm", I32, "nops aN", "1", "control point i goes to perm under each operation", 1},
     {"step", "/accepted/value", D, "", "see work", "measure of the accepted design", 1},
     {"step", "/accepted/gradient", D, "aN 3", "1", "dT/dphi, projected on symmetric free vectors", 1},
+    {"step", "/pair/step", D, "npair aN 3", "mm", "last steps between accepted designs of these control points, oldest first", 0},
+    {"step", "/pair/gradient", D, "npair aN 3", "1", "change of the gradient over them", 0},
     {"step", "/accepted/penalty", D, "2", "1", "curvature and wall penalties without weights", 1},
     {"step", "/accepted/worst", D, "2", "1", "largest relative violation of curvature and wall", 1},
     {"step", "/step/verdict", TEXT, "", "1", "continue, converged or stalled", 1},

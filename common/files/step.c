@@ -101,6 +101,11 @@ enum pm_status pm_step_load(const char *path, struct pm_step *s, struct pm_err *
         PM_TRY(pm_h5_get_into(f, items[k].name, items[k].count, (char *)s + items[k].offset, err));
     PM_TRY(pm_h5_get_int(f, "/step/renew", &s->renew, err));
     PM_TRY(pm_h5_get(f, "/accepted/gradient", d, &s->gradient, err));
+    if (pm_h5_has(f, "/pair/step")) {
+        PM_TRY(pm_h5_get(f, "/pair/gradient", d, &s->pair_gradient, err));
+        PM_TRY(pm_h5_get(f, "/pair/step", d, &s->pair_step, err));
+        s->npairs = d[0];
+    }
     PM_TRY(read_trials(f, s, err));
     if (s->ntrials < 1 || !(s->radius > 0))
         PM_TRY(pm_h5_refuse(f, err, "/step/radius",
@@ -145,6 +150,7 @@ enum pm_status pm_step_write(struct pm_h5 *f, const struct pm_step *s, struct pm
 {
     enum pm_status status;
     const ptrdiff_t d[] = {s->accepted.offset[s->accepted.ns], 3};
+    const ptrdiff_t pairs[] = {s->npairs, d[0], 3};
 
     PM_TRY(pm_surfaces_write(f, &s->trial, err));
     PM_TRY(pm_surfaces_write_at(f, "/accepted", &s->accepted, err));
@@ -154,6 +160,10 @@ enum pm_status pm_step_write(struct pm_h5 *f, const struct pm_step *s, struct pm
                          (const char *)s + items[k].offset, err));
     PM_TRY(pm_h5_put_int(f, "/step/renew", s->renew, err));
     PM_TRY(pm_h5_put(f, "/accepted/gradient", d, s->gradient, err));
+    if (s->npairs > 0) {
+        PM_TRY(pm_h5_put(f, "/pair/step", pairs, s->pair_step, err));
+        PM_TRY(pm_h5_put(f, "/pair/gradient", pairs, s->pair_gradient, err));
+    }
     PM_TRY(write_trials(f, s, err));
 done:
     return status;
@@ -164,6 +174,8 @@ void pm_step_release(struct pm_step *s)
     pm_surfaces_release(&s->trial);
     pm_surfaces_release(&s->accepted);
     pm_free(s->gradient);
+    pm_free(s->pair_step);
+    pm_free(s->pair_gradient);
     pm_free(s->trials);
     *s = (struct pm_step){.ntrials = 0};
 }

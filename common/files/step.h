@@ -26,10 +26,13 @@ struct pm_trial {
 struct pm_step {
     struct pm_surfaces trial;    /* proposed; pcase is the case of the run */
     struct pm_surfaces accepted; /* last accepted design (its pcase is a copy) */
-    char verdict[16]; /* continue, converged, stalled; the latter propose the accepted design */
-    double value;     /* objective of the accepted design */
-    double *gradient; /* its derivative by phi of the accepted design, projected on the symmetric
-                         free subspace (N x 3) */
+    char verdict[16];  /* continue, converged, stalled; the latter propose the accepted design */
+    double value;      /* objective of the accepted design */
+    double *gradient;  /* its derivative by phi of the accepted design, projected on the symmetric
+                          free subspace (N x 3) */
+    ptrdiff_t npairs;  /* steps between accepted designs of these control points, oldest first */
+    double *pair_step; /* (npairs x N x 3) [mm] */
+    double *pair_gradient; /* change of the gradient over it (npairs x N x 3) */
     double penalty[2],
         worst[2];     /* sums of curvature and wall penalties without weights, largest violations */
     double weight[2]; /* rho_c, rho_t */

@@ -6,6 +6,7 @@
 #include "common/base/memory.h"
 #include "common/geometry/symmetry.h"
 #include "tools/trstep/penalty.h"
+#include "tools/trstep/secants.h"
 #include "tools/trstep/subproblem.h"
 #include "tools/trstep/trstep.h"
 
@@ -23,6 +24,7 @@ enum { ROUNDS = 12, HALVINGS = 8, REVISIONS = 3 };
 struct proposal {
     struct pm_step *s;
     struct penalty penalty;
+    struct secants secants;
     ptrdiff_t N;
     double rho[2];
     double peak;   /* violation of curvature that new samples see: recorded, not refused */
@@ -38,13 +40,14 @@ static void move(struct proposal *p, const double *step)
         p->trial[i] = p->phi[i] + step[i];
 }
 
+/* All but the linear term. */
 static double penalise(void *context, const double *step, double *gradient)
 {
     struct proposal *p = context;
     struct penalty_value v;
     move(p, step);
     penalty_at(&p->penalty, p->trial, p->rho, gradient, &v);
-    return v.lagrangian;
+    return v.lagrangian - secants_at(&p->secants, step, -1, gradient);
 }
 
 static void project(void *context, double *v)
@@ -106,7 +109,8 @@ static enum pm_status complete(struct proposal *p, struct pm_err *err)
     const struct subproblem problem = subproblem_of(p);
 
     PM_TRY(measure(p, p->trial, s->trial_penalty, s->trial_worst, err));
-    s->gain = s->max_step = 0;
+    s->gain = secants_value(&p->secants, p->step);
+    s->max_step = 0;
     for (ptrdiff_t i = 0; i < 3 * p->N; i++)
         s->gain += s->gradient[i] * p->step[i];
     for (ptrdiff_t m = 0; m < p->N; m++) {
@@ -254,6 +258,7 @@ static enum pm_status prepare(struct proposal *p, struct pm_err *err)
     pm_surfaces_gather(&s->accepted, p->phi);
     PM_TRY(penalty_new(&s->accepted, &p->penalty, err));
     subproblem_mass(&s->accepted, &p->penalty.samples, p->mass);
+    PM_TRY(secants_new(s, p->mass, &p->secants, err));
     const struct subproblem problem = subproblem_of(p);
     const double scale = subproblem_dual_norm(&problem, s->gradient) * s->accepted.pcase.wall_min;
     for (int k = 0; k < 2; k++) {
@@ -283,6 +288,7 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
     }
 done:
     penalty_release(&p.penalty);
+    secants_release(&p.secants);
     pm_free(p.phi);
     pm_free(p.step);
     pm_free(p.trial);

@@ -8,6 +8,7 @@
 #include "common/base/memory.h"
 #include "common/files/sens.h"
 #include "common/geometry/symmetry.h"
+#include "tools/trstep/secants.h"
 
 struct trial {
     struct pm_surfaces surfaces;
@@ -133,6 +134,8 @@ static enum pm_status set_base(const struct trial *t, char *const *sens, int nse
         PM_TRY(sum_gradient(t, sens, nsens, s->gradient, err));
     else
         memcpy(s->gradient, t->previous.gradient, (size_t)(3 * N) * sizeof *s->gradient);
+    PM_TRY(secants_collect(t->rebuilt && t->judgement.accepted ? NULL : t->before,
+                           from->pcase.secants, s, err));
     s->value = t->judgement.accepted ? t->work.objective : t->previous.value;
     s->radius =
         t->before != NULL ? trust_radius(t->before, &t->judgement) : t->surfaces.pcase.radius;
