@@ -69,7 +69,7 @@ static enum pm_status walls(const struct field *f, struct pm_check *c, struct pm
     ptrdiff_t ns = f->s->ns;
 
     PM_TRY(PM_NEW(near, ns * ns, err));
-    PM_TRY(pm_distance_nearest(f->s, &f->m, 2 * pc->wall_min, INFINITY, near, err));
+    PM_TRY(pm_distance_nearest(f->s, &f->m, 2 * pc->wall_min, near, err));
     c->wall.distance = INFINITY;
     for (ptrdiff_t k = 0; k < ns * ns; k++)
         if (near[k].distance < c->wall.distance)

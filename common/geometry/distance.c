@@ -95,41 +95,32 @@ done:
 }
 
 enum pm_status pm_distance_nearest(const struct pm_surfaces *s, const struct pm_samples *samples,
-                                   double cutoff, double geodesic, struct pm_approach *near,
-                                   struct pm_err *err)
+                                   double cutoff, struct pm_approach *near, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_map *map[PM_MAX_CHAMBERS + 1] = {0};
-    struct pm_pair *pair = NULL, *best = NULL;
+    struct pm_pair *best = NULL;
     double *phi = NULL, *x = NULL;
-    ptrdiff_t n = 0, ns = s->ns;
+    const ptrdiff_t ns = s->ns;
 
     PM_TRY(PM_NEW(best, ns * ns, err));
     PM_TRY(PM_NEW(phi, 3 * s->offset[ns], err));
     PM_TRY(PM_NEW(x, 3 * samples->n, err));
     pm_surfaces_gather(s, phi);
     pm_samples_all(samples, phi, x, NULL);
-    PM_TRY(pm_samples_pairs(samples, x, cutoff, geodesic, &pair, &n, err));
-    for (ptrdiff_t k = 0; k < ns * ns; k++)
-        best[k].distance = INFINITY;
-    for (ptrdiff_t k = 0; k < n; k++) { /* i < j: surfaces ascend */
-        struct pm_pair *b = &best[samples->surface[pair[k].i] * ns + samples->surface[pair[k].j]];
-        if (pair[k].distance < b->distance)
-            *b = pair[k];
-    }
+    PM_TRY(pm_samples_closest(samples, ns, x, cutoff, best, err));
     for (ptrdiff_t k = 0; k < ns; k++)
         PM_TRY(pm_map_new(&s->s[k], &map[k], err));
     for (ptrdiff_t k = 0; k < ns * ns; k++) {
         near[k] = (struct pm_approach){
             .a = (int32_t)(k / ns), .b = (int32_t)(k % ns), .distance = INFINITY};
-        if (isfinite(best[k].distance))
+        if (best[k].i >= 0)
             PM_TRY(refine(s, samples, map, best[k], &near[k], err));
     }
 done:
     for (ptrdiff_t k = 0; k < ns; k++)
         pm_map_free(map[k]);
     pm_free(best);
-    pm_free(pair);
     pm_free(phi);
     pm_free(x);
     return status;

@@ -43,17 +43,13 @@ void pm_samples_at(const struct pm_samples *samples, ptrdiff_t i, const double *
  */
 void pm_samples_all(const struct pm_samples *samples, const double *phi, double *x, double *normal);
 
-/* Pairs i < j closer than `cutoff`: on distinct surfaces, and on one surface where they are further
- * apart than `geodesic` mm along it (estimate by the metric at creation; INFINITY: none on one
- * surface). */
 struct pm_pair {
-    int32_t i, j;
+    int32_t i, j;    /* -1: none */
     double distance; /* [mm] */
 };
-/* Cell grid, sorted by i then j; *pairs is new memory (pm_free). */
-enum pm_status pm_samples_pairs(const struct pm_samples *samples, const double *x, double cutoff,
-                                double geodesic, struct pm_pair **pairs, ptrdiff_t *n,
-                                struct pm_err *err);
+/* The closest two samples of surfaces a < b, closer than `cutoff`: pair[a * ns + b] (ns x ns). */
+enum pm_status pm_samples_closest(const struct pm_samples *samples, ptrdiff_t ns, const double *x,
+                                  double cutoff, struct pm_pair *pair, struct pm_err *err);
 
 /* What a sample faces: `other` is a surface, or an end of the two ways out of its own one. */
 enum { PM_NEAR_OUTSIDE = -1, PM_NEAR_INSIDE = -2 };
@@ -62,13 +58,15 @@ struct pm_near {
     int32_t other;
     double distance; /* [mm] */
 };
-/* For every sample i with from[i]: the nearest sample closer than `cutoff` on each other surface,
- * and on its own, further than `geodesic` along it, the nearest that it faces, within 60 degrees of
- * both normals, through the outside and through the inside of the closed surface. Sorted by i, then
- * other; *near is new memory (pm_free). */
-enum pm_status pm_samples_near(const struct pm_samples *samples, const double *x,
-                               const double *normal, const unsigned char *from, double cutoff,
-                               double geodesic, struct pm_near **near, ptrdiff_t *n,
-                               struct pm_err *err);
+/* For every sample i with from[i]: the nearest sample on each other surface, and on its own,
+ * further than `geodesic` mm along it (estimate by the metric at creation), the nearest that it
+ * faces, within 60 degrees of both normals, through the outside and through the inside of the
+ * closed surface. They are closer than cutoff[0] through the solid, cutoff[1] through a void, which
+ * is inside chambers and outside the exterior. Of equally near ones the first. Sorted by i, then
+ * other; *near is new memory (pm_free). About n log n. */
+enum pm_status pm_samples_near(const struct pm_samples *samples, ptrdiff_t ns, const double *x,
+                               const double *normal, const unsigned char *from,
+                               const double cutoff[2], double geodesic, struct pm_near **near,
+                               ptrdiff_t *n, struct pm_err *err);
 
 #endif

@@ -114,7 +114,7 @@ static void check_measured(void)
     pm_surfaces_scatter(&s, phi);
     ok(penalty_collect(&p, phi, 0, 1, &err) == PM_OK, "feet");
     penalty_at(&p, phi, rho, NULL, &v);
-    ok(pm_distance_nearest(&s, &p.samples, 4, INFINITY, near, &err) == PM_OK, "nearest");
+    ok(pm_distance_nearest(&s, &p.samples, 4, near, &err) == PM_OK, "nearest");
     /* samples miss the thinnest place by less than cover^2/2 (1/10 - 1/14), the curvatures */
     near_abs("worst wall", v.worst[1], 1 - near[1].distance / 3, p.cover * p.cover * 0.015 / 3);
     ok(v.worst[0] == 0, "no curvature above 1 /mm");

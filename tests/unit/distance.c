@@ -37,35 +37,75 @@ done:
     return status;
 }
 
-static void compare_pairs(const struct pm_samples *m, const double *x, double cutoff)
+static double across(const double *normal, const double *a, const double *b)
 {
-    struct pm_pair *pair = NULL;
-    struct pm_err err = {0};
-    ptrdiff_t n = 0, brute = 0, same = 0;
+    return normal[0] * (b[0] - a[0]) + normal[1] * (b[1] - a[1]) + normal[2] * (b[2] - a[2]);
+}
 
-    ok(pm_samples_pairs(m, x, cutoff, HUGE_VAL, &pair, &n, &err) == PM_OK,
-       "pairs on distinct surfaces");
+static double length(const double *a, const double *b)
+{
+    const double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+}
+
+/* The nearest sample on a surface, or on its own within 60 degrees of both normals. */
+static struct pm_near brute(const struct pm_samples *m, const double *x, const double *normal,
+                            ptrdiff_t i, int32_t other, double cutoff)
+{
+    struct pm_near best = {(int32_t)i, -1, other, cutoff};
+    const int32_t k = other < 0 ? m->surface[i] : other;
+    const double side = other == PM_NEAR_INSIDE ? -1 : 1;
+
+    for (ptrdiff_t j = m->first[k]; j < m->first[k + 1]; j++) {
+        const double *a = &x[3 * i], *b = &x[3 * j], d = length(a, b);
+        if (d < best.distance && (other >= 0 || (side * across(&normal[3 * i], a, b) > d / 2 &&
+                                                 side * across(&normal[3 * j], b, a) > d / 2)))
+            best = (struct pm_near){(int32_t)i, (int32_t)j, other, d};
+    }
+    return best;
+}
+
+static void compare_near(const struct pm_samples *m, const double *phi, const double cutoff[2])
+{
+    struct pm_near *near = NULL;
+    struct pm_err err = {0};
+    double *x = NULL, *normal = NULL;
+    unsigned char *from = NULL;
+    ptrdiff_t n = 0, found = 0, same = 0, own = 0, order = 0;
+
+    if (PM_NEW(x, 3 * m->n, &err) != PM_OK || PM_NEW(normal, 3 * m->n, &err) != PM_OK ||
+        PM_NEW(from, m->n, &err) != PM_OK)
+        return;
     for (ptrdiff_t i = 0; i < m->n; i++)
-        for (ptrdiff_t j = i + 1; j < m->n; j++) {
-            double d[3] = {x[3 * i] - x[3 * j], x[3 * i + 1] - x[3 * j + 1],
-                           x[3 * i + 2] - x[3 * j + 2]};
-            if (m->surface[i] == m->surface[j] ||
-                !(d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < cutoff * cutoff))
+        from[i] = i % 3 > 0;
+    pm_samples_all(m, phi, x, normal);
+    ok(pm_samples_near(m, 3, x, normal, from, cutoff, 0, &near, &n, &err) == PM_OK, "near samples");
+    for (ptrdiff_t i = 0; i < m->n; i++)
+        for (int32_t other = PM_NEAR_INSIDE; from[i] && other < 3; other++) {
+            const int hollow = other == (m->surface[i] > 0 ? PM_NEAR_INSIDE : PM_NEAR_OUTSIDE);
+            if (other == m->surface[i])
                 continue;
-            if (brute < n && pair[brute].i == i && pair[brute].j == j)
-                same++;
-            brute++;
+            const struct pm_near b = brute(m, x, normal, i, other, cutoff[hollow]);
+            if (b.j < 0)
+                continue;
+            /* which of two that are equal but for rounding is free */
+            same +=
+                found < n && near[found].i == b.i && near[found].other == b.other &&
+                fabs(near[found].distance - b.distance) < 1e-14 * b.distance &&
+                fabs(length(&x[3 * i], &x[3 * near[found].j]) - b.distance) < 1e-14 * b.distance;
+            own += other < 0;
+            found++;
         }
-    ok(n > 100 && n == brute && same == n, "cell grid finds the %td pairs of brute force (%td)",
-       brute, n);
-    pm_free(pair);
-    /* opposite sides of the flattest chamber are 6 mm apart: one surface with itself */
-    ok(pm_samples_pairs(m, x, 7, 8, &pair, &n, &err) == PM_OK, "pairs on one surface");
-    same = 0;
-    for (ptrdiff_t k = 0; k < n; k++)
-        same += m->surface[pair[k].i] == m->surface[pair[k].j];
-    ok(same > 0, "a flat chamber is close to itself");
-    pm_free(pair);
+    for (ptrdiff_t k = 1; k < n; k++)
+        order += near[k - 1].i < near[k].i ||
+                 (near[k - 1].i == near[k].i && near[k - 1].other < near[k].other);
+    ok(own > 100 && found == n && same == n, "trees find the %td of brute force (%td, %td same)",
+       found, n, same);
+    ok(order == n - 1, "sorted by sample, then by what it faces");
+    pm_free(near);
+    pm_free(x);
+    pm_free(normal);
+    pm_free(from);
 }
 
 int main(void)
@@ -95,10 +135,10 @@ int main(void)
              3e-3);
     near_rel("volume of the tube", pm_samples_volume(&m, phi, 0), PI * 14 * 14 * 40, 2e-3);
     near_rel("area of the tube", pm_samples_area(&m, phi, 0), 2 * PI * 14 * 40, 1e-3);
-    compare_pairs(&m, x, 4.5);
+    compare_near(&m, phi, (const double[]){4.5, 7});
     /* the tube and the sphere of revolution: 14 - (6 + 4) at z = 20; between the chambers brute
      * force says */
-    ok(pm_distance_nearest(&s, &m, 6, HUGE_VAL, near, &err) == PM_OK, "nearest distances");
+    ok(pm_distance_nearest(&s, &m, 6, near, &err) == PM_OK, "nearest distances");
     near_abs("wall between chamber and tube", near[1].distance, 4, 0.05);
     wall = HUGE_VAL;
     for (ptrdiff_t i = m.first[1]; i < m.first[2]; i++)

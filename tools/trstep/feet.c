@@ -163,8 +163,9 @@ static enum pm_status collect_walls(struct penalty *p, const double *phi, double
     struct pm_near *near = NULL;
     ptrdiff_t n = 0;
 
-    PM_TRY(pm_samples_near(&p->samples, p->x, p->normal, p->from,
-                           hypot(p->c->wall_min + reach, p->cover), GEODESIC * p->c->wall_min,
+    const double wall = p->c->wall_min, cutoff[2] = {hypot(wall + reach, p->cover),
+                                                     hypot(VOID_SHARE * wall + reach, p->cover)};
+    PM_TRY(pm_samples_near(&p->samples, p->s->ns, p->x, p->normal, p->from, cutoff, GEODESIC * wall,
                            &near, &n, err));
     PM_TRY(PM_NEW(c.wall, n + 1, err));
     p->nw = 0;
