@@ -101,10 +101,18 @@ static void check_verdicts(void)
     const struct pm_case c = {.radius = 0.3, .tolerance = 0.01};
     struct pm_trial t[7] = {{0}};
     for (int i = 0; i < 7; i++)
-        t[i] = (struct pm_trial){.accepted = 1, .measure = 100 + 0.1 * i};
+        t[i] = (struct pm_trial){.accepted = 1, .measure = 100 + 0.1 * i, .rms_step = 0.07};
     ok(strcmp(trust_verdict(&c, t, 7, 0.3), "converged") == 0,
        "half a per cent over five accepted trials");
     ok(strcmp(trust_verdict(&c, t, 5, 0.3), "continue") == 0, "five trials are four changes");
+    for (int i = 0; i < 7; i++)
+        t[i].rms_step = 0.05;
+    ok(strcmp(trust_verdict(&c, t, 7, 0.3), "continue") == 0, "steps too short to tell");
+    t[6].rms_step = 0.1;
+    ok(strcmp(trust_verdict(&c, t, 7, 0.3), "converged") == 0, "just long enough");
+    t[3].renewed = 1;
+    ok(strcmp(trust_verdict(&c, t, 6, 0.3), "continue") == 0, "a renewal is no trial");
+    t[3].renewed = 0;
     t[1].measure = 90;
     ok(strcmp(trust_verdict(&c, t, 7, 0.3), "continue") == 0, "ten per cent");
     t[6].accepted = 0;

@@ -78,15 +78,17 @@ int trust_renew(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_
 const char *trust_verdict(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_t n,
                           double radius)
 {
-    double last = 0, early = 0;
+    double last = 0, early = 0, way = 0;
     int count = 0;
     for (ptrdiff_t i = n - 1; i >= 0 && count <= WINDOW; i--)
-        if (trials[i].accepted) {
+        if (trials[i].accepted && (i == 0 || !trials[i].renewed)) {
             last = count == 0 ? trials[i].measure : last;
             early = trials[i].measure;
+            way += count < WINDOW ? trials[i].rms_step : 0;
             count++;
         }
-    if (count > WINDOW && trials[n - 1].accepted && fabs(last - early) < c->tolerance * fabs(last))
+    if (count > WINDOW && trials[n - 1].accepted && way >= c->radius &&
+        fabs(last - early) < c->tolerance * fabs(last))
         return "converged";
     return radius < c->radius / 100 ? "stalled" : "continue";
 }

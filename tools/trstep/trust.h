@@ -28,7 +28,8 @@ double trust_radius(const struct pm_step *previous, const struct judgement *j);
  * not new), and at every remesh_every-th trial. trials (n), the last one just judged by j. */
 int trust_renew(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_t n,
                 const struct judgement *j);
-/* "converged": T changed by less than the tolerance over five accepted trials; "stalled": the
+/* "converged": T changed by less than the tolerance over five accepted trials that moved the
+ * surfaces by the first radius together, renewals not counted; "stalled": the
  * radius is below a hundredth of its start; "continue". */
 const char *trust_verdict(const struct pm_case *c, const struct pm_trial *trials, ptrdiff_t n,
                           double radius);
