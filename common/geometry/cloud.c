@@ -28,6 +28,8 @@ struct pm_cloud {
     struct node *node;
     struct leaf *leaf;
     ptrdiff_t *leaf_of; /* leaf and place of a point: leaf * WIDTH + place (n) */
+    double *ball;       /* boxes of the balls of a node, NULL without  (nodes x 6) */
+    double *radius2;    /* of the points, leaf by leaf                 (leaves x WIDTH) [mm2] */
 };
 
 /* fmin and fmax are calls. */
@@ -183,7 +185,90 @@ void pm_cloud_free(struct pm_cloud *cloud)
     pm_free(cloud->node);
     pm_free(cloud->leaf);
     pm_free(cloud->leaf_of);
+    pm_free(cloud->ball);
+    pm_free(cloud->radius2);
     pm_free(cloud);
+}
+
+/* The boxes of the balls of a tree of so many leaves, from leaf `number` on. */
+static void wrap(struct pm_cloud *c, ptrdiff_t at, ptrdiff_t number, ptrdiff_t leaves,
+                 const double *radius)
+{
+    const ptrdiff_t right = right_child(at, leaves), left = left_part(leaves);
+    struct node nd = nowhere();
+
+    if (leaves > 1) {
+        wrap(c, at + 1, number, left, radius);
+        wrap(c, right, number + left, leaves - left, radius);
+        widen(nd.x, &c->ball[6 * (at + 1)], &c->ball[6 * (at + 1) + 3]);
+        widen(nd.x, &c->ball[6 * right], &c->ball[6 * right + 3]);
+    }
+    for (ptrdiff_t k = 0; k < WIDTH && leaves == 1; k++) {
+        const struct leaf *l = &c->leaf[number];
+        const double r = l->id[k] >= 0 ? radius[l->id[k]] : 0;
+        const double low[3] = {l->x[0][k] - r, l->x[1][k] - r, l->x[2][k] - r};
+        const double high[3] = {l->x[0][k] + r, l->x[1][k] + r, l->x[2][k] + r};
+        if (l->id[k] >= 0)
+            widen(nd.x, low, high);
+        c->radius2[number * WIDTH + k] = l->id[k] >= 0 ? r * r : 0;
+    }
+    memcpy(&c->ball[6 * at], nd.x, sizeof nd.x);
+}
+
+enum pm_status pm_cloud_inflate(struct pm_cloud *cloud, const double *radius, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+
+    PM_TRY(PM_NEW(cloud->ball, 6 * 2 * cloud->leaves, err));
+    PM_TRY(PM_NEW(cloud->radius2, cloud->leaves * WIDTH, err));
+    if (cloud->n > 0)
+        wrap(cloud, 0, 0, cloud->leaves, radius);
+done:
+    return status;
+}
+
+/* Touching counts: small balls are lost in the rounding of their boxes. */
+static inline int holds(const double *box, const double x[3])
+{
+    return (box[0] <= x[0]) & (x[0] <= box[3]) & (box[1] <= x[1]) & (x[1] <= box[4]) &
+           (box[2] <= x[2]) & (x[2] <= box[5]);
+}
+
+ptrdiff_t pm_cloud_covering(const struct pm_cloud *cloud, const double x[3], int32_t *id)
+{
+    struct {
+        ptrdiff_t at, number, leaves;
+    } stack[STACK];
+    ptrdiff_t found = 0;
+    int top = cloud->n > 0;
+
+    stack[0].at = stack[0].number = 0;
+    stack[0].leaves = cloud->leaves;
+    while (top > 0) {
+        const ptrdiff_t at = stack[--top].at, leaves = stack[top].leaves;
+        const ptrdiff_t number = stack[top].number, left = left_part(leaves);
+        if (!holds(&cloud->ball[6 * at], x))
+            continue;
+        if (leaves > 1) {
+            stack[top].at = right_child(at, leaves);
+            stack[top].number = number + left;
+            stack[top++].leaves = leaves - left;
+            stack[top].at = at + 1;
+            stack[top].number = number;
+            stack[top++].leaves = left;
+            continue;
+        }
+        const struct leaf *l = &cloud->leaf[number];
+        double d2[WIDTH];
+        for (int k = 0; k < WIDTH; k++) {
+            const double d[3] = {x[0] - l->x[0][k], x[1] - l->x[1][k], x[2] - l->x[2][k]};
+            d2[k] = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+        }
+        for (int k = 0; k < WIDTH; k++)
+            if (d2[k] < cloud->radius2[number * WIDTH + k])
+                id[found++] = l->id[k];
+    }
+    return found;
 }
 
 /* Largest product of numbers from two intervals. */

@@ -1,4 +1,5 @@
-/* A tree of points: which of them is nearest, of all or of those that are faced. */
+/* A tree of points: which of them is nearest, of all or of those that are faced; which balls around
+ * them hold a place. */
 #ifndef PM_CLOUD_H
 #define PM_CLOUD_H
 
@@ -14,6 +15,11 @@ struct pm_cloud;
 enum pm_status pm_cloud_new(ptrdiff_t n, const double *x, const double *normal,
                             struct pm_cloud **cloud, struct pm_err *err);
 void pm_cloud_free(struct pm_cloud *cloud);
+
+/* Gives every point a ball around it (n) [mm]. */
+enum pm_status pm_cloud_inflate(struct pm_cloud *cloud, const double *radius, struct pm_err *err);
+/* The balls that hold x, in a fixed order: id has room for n; returns their number. */
+ptrdiff_t pm_cloud_covering(const struct pm_cloud *cloud, const double x[3], int32_t *id);
 
 /* What is looked for: a point of the other cloud closer than `cutoff` and accepted (NULL: any).
  * With side 1, where both have normals n and m and d is the way to it, d.n > cosine |d| and -d.m >

@@ -6,6 +6,7 @@
 
 #include "common/base/memory.h"
 #include "common/geometry/boxes.h"
+#include "common/geometry/cloud.h"
 
 static const double TWO_PI = 6.283185307179586476925;
 
@@ -13,7 +14,7 @@ struct pm_map {
     int32_t type;
     ptrdiff_t n, nu, nv;
     const double *Phi, *d0;
-    struct pm_boxes *supports;    /* of the sphere map */
+    struct pm_cloud *supports;    /* of the sphere map */
     gsl_bspline_workspace *axial; /* clamped cubic, uniform knots on [0, 1] */
     gsl_matrix *dB;               /* (4 x 3) non-zero axial functions and derivatives */
 };
@@ -26,37 +27,6 @@ static enum pm_status new_axial(struct pm_map *m, struct pm_err *err)
         return pm_fail(err, PM_SYSTEM, "out of memory: B-spline of %td rows", m->nv);
     gsl_bspline_knots_uniform(0.0, 1.0, m->axial);
     return PM_OK;
-}
-
-static enum pm_status new_supports(struct pm_map *m, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    double *box = NULL;
-    PM_TRY(PM_NEW(box, 6 * m->n, err));
-    for (ptrdiff_t i = 0; i < m->n; i++)
-        for (int j = 0; j < 3; j++) {
-            box[6 * i + j] = m->Phi[3 * i + j] - m->d0[i];
-            box[6 * i + 3 + j] = m->Phi[3 * i + j] + m->d0[i];
-        }
-    PM_TRY(pm_boxes_new(m->n, box, NULL, &m->supports, err));
-done:
-    pm_free(box);
-    return status;
-}
-
-/* Control points whose support holds S: id has room for n; returns their number. */
-static ptrdiff_t covering(const struct pm_map *m, const double S[3], int32_t *id)
-{
-    const double box[6] = {S[0], S[1], S[2], S[0], S[1], S[2]};
-    const ptrdiff_t met = pm_boxes_meet(m->supports, box, id);
-    ptrdiff_t n = 0;
-    for (ptrdiff_t k = 0; k < met; k++) {
-        const double *P = &m->Phi[3 * (ptrdiff_t)id[k]], r = m->d0[id[k]];
-        const double d[3] = {S[0] - P[0], S[1] - P[1], S[2] - P[2]};
-        if (d[0] * d[0] + d[1] * d[1] + d[2] * d[2] < r * r)
-            id[n++] = id[k];
-    }
-    return n;
 }
 
 enum pm_status pm_map_new(const struct pm_surface *s, struct pm_map **map, struct pm_err *err)
@@ -72,14 +42,16 @@ enum pm_status pm_map_new(const struct pm_surface *s, struct pm_map **map, struc
     m->nv = s->nv;
     m->Phi = s->Phi;
     m->d0 = s->d0;
-    if (s->type == PM_SURFACE_SPHERE)
-        PM_TRY(new_supports(m, err));
-    else if (s->nu < 4 || s->nv < 4 || s->n != s->nu * s->nv)
+    if (s->type == PM_SURFACE_SPHERE) {
+        PM_TRY(pm_cloud_new(m->n, m->Phi, NULL, &m->supports, err));
+        PM_TRY(pm_cloud_inflate(m->supports, m->d0, err));
+    } else if (s->nu < 4 || s->nv < 4 || s->n != s->nu * s->nv) {
         PM_TRY(pm_fail(err, PM_INPUT,
                        "B-spline has %td = %td x %td control points, expected 4 x 4 or more", s->n,
                        s->nu, s->nv));
-    else
+    } else {
         PM_TRY(new_axial(m, err));
+    }
     *map = m;
     m = NULL;
 done:
@@ -91,7 +63,7 @@ void pm_map_free(struct pm_map *map)
 {
     if (map == NULL)
         return;
-    pm_boxes_free(map->supports);
+    pm_cloud_free(map->supports);
     if (map->axial != NULL)
         gsl_bspline_free(map->axial);
     if (map->dB != NULL)
@@ -203,7 +175,7 @@ static enum pm_status sphere_basis(const struct pm_map *m, const double S[3], in
     double t[6], Z[6] = {0};
 
     sphere_tangents(S, t);
-    b->n = covering(m, S, b->id);
+    b->n = pm_cloud_covering(m->supports, S, b->id);
     for (ptrdiff_t k = 0; k < b->n; k++) {
         ptrdiff_t i = b->id[k];
         double C[6] = {0};
@@ -426,7 +398,7 @@ enum pm_status pm_map_coverage(const struct pm_map *map, const double S[3], stru
     *Z = 0;
     if (status != PM_OK)
         return status;
-    work->n = covering(map, S, work->id);
+    work->n = pm_cloud_covering(map->supports, S, work->id);
     for (ptrdiff_t k = 0; k < work->n; k++) {
         kernel(S, t, &map->Phi[3 * (ptrdiff_t)work->id[k]], map->d0[work->id[k]], 0, C);
         *Z += C[0];

@@ -151,6 +151,7 @@ static enum pm_status fit(const struct rebuild *r, struct pm_surfaces *to,
     struct pm_surface *f = &to->s[k];
     struct pm_map *old = NULL, *map = NULL;
     struct target t = {0};
+    struct pm_fitter *fitter = NULL;
     uint8_t *fixed = NULL;
     double error[2];
 
@@ -164,19 +165,19 @@ static enum pm_status fit(const struct rebuild *r, struct pm_surfaces *to,
     const struct pm_fit job = {.nq = t.nq,
                                .S = t.S,
                                .weight = t.weight,
-                               .target = t.x,
                                .alpha = k == 0 ? 1e-3 : r->o->alpha,
-                               .iterations = (int)iterations,
                                .fixed = fixed};
-    PM_TRY(pm_fit_points(map, f->n, &job, f->phi, error, err));
+    PM_TRY(pm_fitter_new(map, f->n, &job, &fitter, err));
+    PM_TRY(pm_fitter_solve(fitter, t.x, (int)iterations, f->phi, error, err));
     for (int i = 0; i < SLIDES && !paper && r->carried[k] != NULL; i++) {
         PM_TRY(slide(from, old, f, map, &t, err));
-        PM_TRY(pm_fit_points(map, f->n, &job, f->phi, error, err));
+        PM_TRY(pm_fitter_solve(fitter, t.x, (int)iterations, f->phi, error, err));
     }
 done:
     pm_map_free(old);
     pm_map_free(map);
     target_release(&t);
+    pm_fitter_free(fitter);
     pm_free(fixed);
     return status;
 }
