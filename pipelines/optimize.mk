@@ -1,10 +1,12 @@
 # The optimisation loop. One folder per iteration, one file per stage, one target per file:
 #
 #   make -j2 optimize CASE=data/cases/2A0R2T.ini RUN=run/NAME [SIZE=MM] [SET='section.key=value ..'] [ITERATIONS=N]
+#        [DESIGN=data/designs/NAME.h5]
 #   make -j2 it007 RUN=run/NAME            up to one iteration
 #   make -j2 RUN=run/NAME ITER=it007 run/NAME/it007/work.h5    one file of one iteration
 #
-# RUN/case.ini is the case of the run (CASE with the lines of SET replaced; SIZE is short for mesh.size). A stopped run goes on where it was: files appear
+# RUN/case.ini is the case of the run (CASE with the lines of SET replaced; SIZE is short for mesh.size). DESIGN
+# is a surface or step file to start from instead of the shapes of the case. A stopped run goes on where it was: files appear
 # whole or not at all, and nothing is made twice. LAUNCH is put before the heavy stages, for instance
 # LAUNCH='srun -n1 -c1'. pipelines/optimize.sh walks through the iterations and ends at the verdict of trstep.
 
@@ -13,15 +15,24 @@ CASE ?=
 SIZE ?=
 SET ?=
 ITERATIONS ?=
+DESIGN ?=
 ITER ?=
 LAUNCH ?=
 BIN := $(abspath $B)/bin
 OPTIMISERS := $(addprefix $B/bin/,surfgen surfremesh tetmesh fesolve wsint adjsens trstep)
 
-WALK = BIN='$(BIN)' MAKE='$(MAKE)' pipelines/optimize.sh '$(RUN)' '$(CASE)' '$(if $(SIZE),mesh.size=$(SIZE)) $(SET)'
+WALK = BIN='$(BIN)' MAKE='$(MAKE)' pipelines/optimize.sh '$(RUN)' '$(CASE)' '$(if $(SIZE),mesh.size=$(SIZE)) $(SET)' '$(DESIGN)'
 .PHONY: optimize
-optimize: $(OPTIMISERS) ## optimise a design: CASE=data/cases/NAME.ini RUN=run/NAME [SIZE=MM] [SET=..] [ITERATIONS=N] [LAUNCH=..]
+optimize: $(OPTIMISERS) ## optimise a design: CASE=data/cases/NAME.ini RUN=run/NAME [SIZE=MM] [DESIGN=FILE.h5] [SET=..] [ITERATIONS=N] [LAUNCH=..]
 	+@$(WALK) '$(ITERATIONS)'
+
+NAME ?=
+.PHONY: design
+design: $B/bin/surfgen ## keep the last accepted design of a run with its history: RUN=run/NAME NAME=data/designs/NAME
+	@[ -e '$(RUN)/history.tsv' ] && [ -n '$(NAME)' ] || { echo 'design: expected RUN=run/NAME of an optimisation and NAME=data/designs/NAME' >&2; exit 2; }
+	mkdir -p $(dir $(NAME))
+	$(BIN)/surfgen --design $(lastword $(sort $(wildcard $(RUN)/it*/step.h5))) $(RUN)/case.ini -o $(NAME).h5
+	cp $(RUN)/history.tsv $(NAME).tsv
 
 RUN_TO := $(filter it0% it1% it2% it3% it4% it5% it6% it7% it8% it9%,$(MAKECMDGOALS))
 .PHONY: $(RUN_TO)
@@ -54,7 +65,7 @@ $D/step.h5: | $D
 ifneq ($(FIRST),)
 SURF := $D/surf.h5
 $(SURF): $(RUN)/case.ini | $D
-	@$(STAGE) surfgen $(BIN)/surfgen $< -o $@
+	@$(STAGE) surfgen $(BIN)/surfgen $(addprefix --design ,$(wildcard $(RUN)/start.h5)) $< -o $@
 else ifneq ($(RENEW),)
 SURF := $D/surf.h5
 $(SURF): $(PREV)/step.h5 | $D

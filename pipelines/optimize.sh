@@ -1,8 +1,8 @@
 #!/bin/bash
-# optimize.sh RUN CASE SETTINGS ITERATIONS: walks through the iterations of a run until trstep says converged or stalled, or
+# optimize.sh RUN CASE SETTINGS DESIGN ITERATIONS: walks through the iterations of a run until trstep says converged or stalled, or
 # iteration ITERATIONS is done (default: max_iterations of the case). RUN/history.tsv holds one row per trial.
 set -eu
-run=$1 case=$2 settings=$3 last=$4
+run=$1 case=$2 settings=$3 design=$4 last=$5
 
 fail() {
     echo "optimize: $1" >&2
@@ -13,12 +13,13 @@ fail() {
 mkdir -p "$run"
 if [ -n "$case" ]; then
     [ -r "$case" ] || fail "cannot read '$case'"
-    # SETTINGS "section.key=value ..": those lines of the case replaced; each must be there.
-    awk -v settings="$settings" 'BEGIN { n = split(settings, list, " "); for (i = 1; i <= n; i++) { split(list[i], kv, "="); value[kv[1]] = kv[2] } }
-        /^\[/ { section = $0; gsub(/[][ ]/, "", section) }
+    # SETTINGS "section.key=value ..": lines of the case replaced, or added to their section.
+    awk -v settings="$settings" 'function add(k, part) { for (k in value) { split(k, part, "."); if (part[1] == section) { print part[2] " = " value[k]; delete value[k] } } }
+        BEGIN { n = split(settings, list, " "); for (i = 1; i <= n; i++) { split(list[i], kv, "="); value[kv[1]] = kv[2] } }
+        /^\[/ { add(); section = $0; gsub(/[][ ]/, "", section) }
         { key = $1; sub(/=.*/, "", key); key = section "." key }
         key in value { $0 = $1 " = " value[key]; delete value[key] } { print }
-        END { for (k in value) { print "optimize: the case has no \047" k "\047 to set" > "/dev/stderr"; bad = 2 } exit bad }' \
+        END { add(); for (k in value) { print "optimize: the case has no section of \047" k "\047 to set" > "/dev/stderr"; bad = 2 } exit bad }' \
         "$case" >"$run/case.new" || { rm -f "$run/case.new"; exit 2; }
     if [ ! -e "$run/case.ini" ]; then
         mv "$run/case.new" "$run/case.ini"
@@ -27,6 +28,14 @@ if [ -n "$case" ]; then
     else
         rm "$run/case.new"
         fail "'$run' was started with another case or settings, expected that of '$run/case.ini'"
+    fi
+fi
+if [ -n "$design" ]; then
+    [ -r "$design" ] || fail "cannot read '$design'"
+    if [ ! -e "$run/it000/surf.h5" ]; then
+        cp "$design" "$run/start.h5"
+    elif ! cmp -s "$design" "$run/start.h5"; then
+        fail "'$run' was started from another design than '$design'"
     fi
 fi
 [ -r "$run/case.ini" ] || fail "'$run' has no case, expected CASE=data/cases/NAME.ini"

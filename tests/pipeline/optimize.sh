@@ -86,7 +86,18 @@ refused 3 "a form without states" "no state at a point of the volume form" "$BIN
 refused 3 "a measure of three chambers" "measure 3T got 2 chambers, expected 3" "$BIN/wsint" --measure 3T "${states[@]}" -o "$work/output/x.h5"
 refused 3 "a free load" "at no Gauss point" "$BIN/wsint" "${states[@]}" "$work/first/it000/corner-1-1.h5" -o "$work/output/x.h5"
 
+# A design starts another run on another mesh, whose first measure is the last one there up to what a coarse mesh is worth.
+check "a design is kept" make -s B="$BUILD" design RUN="$work/first" NAME="$work/designs/tiny"
+check "with its history" cmp "$work/first/history.tsv" "$work/designs/tiny.tsv"
+check "and starts a run" run next 0 DESIGN="$work/designs/tiny.h5" SIZE=7 SET=optimisation.secants=0
+check "with its measure" awk -F '\t' 'FNR == NR { if ($2 == 1) t = $3; next } FNR == 2 { print t, $3; exit !($3 > 0.95 * t && $3 < 1.05 * t) }' \
+    "$work/first/history.tsv" "$work/next/history.tsv"
+check "a setting that the case lacks stands in its section" awk '/^\[/ { on = /optimisation/ } on && /^secants = 0$/ { found = 1 } END { exit !found }' "$work/next/case.ini"
+refused 3 "a design of another symmetry" "its symmetry is not that of the case" \
+    "$BIN/surfgen" --design "$work/designs/tiny.h5" <(sed 's/^group = .*/group = mirror-x/' tests/data/tiny.ini) -o "$work/output/x.h5"
+refused 3 "a design of another height" "it is 32 mm high, the case 33" \
+    "$BIN/surfgen" --design "$work/designs/tiny.h5" <(sed 's/^height = .*/height = 33/' tests/data/tiny.ini) -o "$work/output/x.h5"
 refused 2 "another case for the same run" 'another case or settings' \
-    env BIN="$BIN" pipelines/optimize.sh "$work/first" tests/data/tiny.ini mesh.size=9 2
-refused 2 "no case" 'has no case' env BIN="$BIN" pipelines/optimize.sh "$work/none" '' '' 2
+    env BIN="$BIN" pipelines/optimize.sh "$work/first" tests/data/tiny.ini mesh.size=9 '' 2
+refused 2 "no case" 'has no case' env BIN="$BIN" pipelines/optimize.sh "$work/none" '' '' '' 2
 finish

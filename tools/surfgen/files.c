@@ -9,6 +9,12 @@ enum pm_status pm_files_check(const struct pm_case *c, const struct surfgen_file
 {
     ptrdiff_t g;
 
+    if (files->design != NULL) {
+        for (ptrdiff_t k = 0; k < PM_MAX_CHAMBERS; k++)
+            if (files->chamber[k] != NULL || files->body != NULL)
+                return pm_fail(err, PM_USAGE, "--design does not go with --body and --chamber");
+        return PM_OK;
+    }
     if ((c->body == PM_BODY_FILE) != (files->body != NULL))
         return pm_fail(err, PM_USAGE, "the body of case '%s' is %s", c->name,
                        files->body != NULL ? "not from a file, but there is --body"

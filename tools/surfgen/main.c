@@ -4,6 +4,7 @@
 
 static const struct pm_option OPTIONS[] = {
     {"body", 0, "FILE", "closed surface (STL, OBJ) of a body with shape = file"},
+    {"design", 0, "FILE.h5", "surfaces of a finished design (surface, step) instead of the shapes"},
     {"chamber", 0, "N=FILE", "closed surface of a chamber with shape = file; repeatable"},
     {0},
 };
@@ -12,7 +13,7 @@ static enum pm_status take(void *opts, const char *name, const char *value, stru
 {
     struct surfgen_files *files = opts;
     const int chamber = strcmp(name, "chamber") == 0, digit = value[0] - '1';
-    const char **file = &files->body;
+    const char **file = strcmp(name, "design") == 0 ? &files->design : &files->body;
 
     if (chamber) {
         if (digit < 0 || digit >= PM_MAX_CHAMBERS || value[1] != '=' || value[2] == '\0')

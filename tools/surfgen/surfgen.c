@@ -12,6 +12,7 @@
 #include "common/geometry/tube.h"
 #include "tools/surfgen/body.h"
 #include "tools/surfgen/chamber.h"
+#include "tools/surfgen/design.h"
 #include "tools/surfgen/files.h"
 
 /* Shares of the spacing: a shape that its control points miss by more is doubtful, or not it. */
@@ -225,7 +226,24 @@ done:
     return status;
 }
 
-static enum pm_status finish(struct pm_surfaces *s, struct pm_check *check, struct pm_err *err)
+/* A design is taken for what it is: an optimised wall may be 2 % thinner than it should. */
+static enum pm_status examine(const struct pm_surfaces *s, int design, struct pm_check *check,
+                              struct pm_err *err)
+{
+    struct pm_err thin = {.status = PM_OK};
+    enum pm_status status;
+
+    if (!design)
+        return pm_surfaces_check(s, check, err);
+    PM_TRY(pm_surfaces_measure(s, check, err));
+    if (pm_surfaces_check(s, check, &thin) != PM_OK)
+        pm_warn("%s", thin.text);
+done:
+    return status;
+}
+
+static enum pm_status finish(struct pm_surfaces *s, int design, struct pm_check *check,
+                             struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     double *phi = NULL;
@@ -234,7 +252,7 @@ static enum pm_status finish(struct pm_surfaces *s, struct pm_check *check, stru
     pm_surfaces_gather(s, phi);
     pm_symmetrise_points(s, phi);
     pm_surfaces_scatter(s, phi);
-    PM_TRY(pm_surfaces_check(s, check, err));
+    PM_TRY(examine(s, design, check, err));
     pm_log(1, "least wall %.3f between surfaces %d and %d at (%.4g, %.4g, %.4g), least cap %.3f mm",
            check->wall.distance, check->wall.a, check->wall.b, check->wall.x[0], check->wall.x[1],
            check->wall.x[2], check->cap);
@@ -272,12 +290,17 @@ enum pm_status pm_surfgen_from(const struct pm_case *c, const struct surfgen_fil
     memset(s, 0, sizeof *s);
     memset(report, 0, sizeof *report);
     PM_TRY(pm_files_check(c, files, err));
+    if (files->design != NULL) {
+        PM_TRY(pm_design_load(files->design, c, s, err));
+        PM_TRY(finish(s, 1, &report->check, err));
+        goto done;
+    }
     PM_TRY(seed(&p, s, err));
     PM_TRY(pm_samples_new(s, INFINITY, 2, &m, err));
     for (ptrdiff_t k = 0; k < s->ns; k++)
         PM_TRY(shape(&p, s, &m, k, err));
     PM_TRY(pm_tube_edges(&s->s[0], s->s[0].spacing, longest, err));
-    PM_TRY(finish(s, &report->check, err));
+    PM_TRY(finish(s, 0, &report->check, err));
 done:
     pm_outline_free(p.outline);
     for (ptrdiff_t k = 0; k < PM_MAX_CHAMBERS; k++)
@@ -296,11 +319,13 @@ enum pm_status surfgen_run(const struct surfgen_files *files, const struct pm_co
     struct pm_surfaces s = {0};
     struct pm_surfgen_report fit;
     struct pm_h5 *f = NULL;
-    const char *extra[PM_MAX_CHAMBERS + 2] = {NULL};
+    const char *extra[PM_MAX_CHAMBERS + 3] = {NULL};
     int n = 0;
 
     PM_TRY(pm_case_load(common->operands[0], &c, err));
     PM_TRY(pm_surfgen_from(&c, files, &s, &fit, err));
+    if (files->design != NULL)
+        extra[n++] = files->design;
     if (files->body != NULL)
         extra[n++] = files->body;
     for (int k = 0; k < PM_MAX_CHAMBERS; k++)

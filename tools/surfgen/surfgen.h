@@ -5,13 +5,16 @@
 #include "common/files/surfaces.h"
 #include "common/geometry/check.h"
 
-/* Closed triangle meshes (STL, OBJ) for what the case says is from a file; NULL: none. */
+/* Closed triangle meshes (STL, OBJ) for what the case says is from a file, or a design instead of
+ * all shapes of the case; NULL: none. */
 struct surfgen_files {
+    const char *design; /* surface or step file whose surfaces are taken as they are */
     const char *body;
     const char *chamber[PM_MAX_CHAMBERS];
 };
 
-/* Reads the case, writes its initial surfaces. */
+/* Reads the case, writes its initial surfaces. Of a design, warns of what breaks the constraints.
+ */
 enum pm_status surfgen_run(const struct surfgen_files *files, const struct pm_common *common,
                            struct pm_err *err);
 /* How well it went. */
