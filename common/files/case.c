@@ -62,6 +62,7 @@ static const struct key keys[] = {
     {"workspace", "weight_normal", NUMBERS, ANY, AT(c.weight.normal), 3},
     {"workspace", "weight_width", NUMBER, POSITIVE, AT(c.weight.width), 0},
     {"mesh", "size", NUMBER, POSITIVE, AT(c.mesh_size), 0},
+    {"mesh", "layers", INTEGER, NOT_NEGATIVE, AT(c.mesh_layers), 0},
     {"mesh", "extension", WORD_AT(extension)},
     {"constraints", "wall_min", NUMBER, POSITIVE, AT(c.wall_min), 0},
     {"constraints", "curvature_max", NUMBER, POSITIVE, AT(c.curvature_max), 0},

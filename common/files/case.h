@@ -106,6 +106,7 @@ struct pm_case {
     struct pm_weight weight;
     /* [mesh] */
     double mesh_size; /* wanted edge length [mm] */
+    long mesh_layers; /* edges through a wall, at least */
     enum pm_extension_kind extension;
     /* [constraints] */
     double wall_min;          /* d_min [mm] */

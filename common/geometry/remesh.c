@@ -36,13 +36,13 @@ void pm_rim_constrain(int32_t type, unsigned rim, double S[3])
         S[j] /= sqrt(sum);
 }
 
-/* Largest principal curvature |k| = |H| + sqrt(H^2 - K) [model 6.2]. */
-static double curvature(const double r_a[6], const double r_ab[9])
+/* Largest principal curvature |k| = |H| + sqrt(H^2 - K) [model 6.2], and the unit normal. */
+static double curvature(const double r_a[6], const double r_ab[9], double n[3])
 {
     const double *u = r_a, *v = r_a + 3;
-    const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                         u[0] * v[1] - u[1] * v[0]};
     double g[3] = {0}, b[3] = {0};
+    for (int i = 0; i < 3; i++)
+        n[i] = u[(i + 1) % 3] * v[(i + 2) % 3] - u[(i + 2) % 3] * v[(i + 1) % 3];
     for (int i = 0; i < 3; i++) {
         g[0] += u[i] * u[i];
         g[1] += u[i] * v[i];
@@ -55,6 +55,8 @@ static double curvature(const double r_a[6], const double r_ab[9])
         return INFINITY;
     const double H = (g[2] * b[0] - 2 * g[1] * b[1] + g[0] * b[2]) / (2 * det);
     const double K = (b[0] * b[2] - b[1] * b[1]) / det;
+    for (int i = 0; i < 3; i++)
+        n[i] /= sqrt(det);
     return (fabs(H) + sqrt(fmax(H * H - K, 0))) / sqrt(det);
 }
 
@@ -68,11 +70,15 @@ static enum pm_status size_at(struct pm_edit *m, const struct pm_remesh_opts *o,
                               double *size, struct pm_err *err)
 {
     enum pm_status status;
-    double r_a[6], r_ab[9];
-    PM_TRY(pm_map_point(m->map, m->phi, S, &m->basis, NULL, r_a, r_ab, err));
-    const double k = curvature(r_a, r_ab);
-    const double bound = o->chord > 0 ? sqrt(8 * o->chord / k) : o->size;
-    *size = fmax(o->size_min, fmin(fmin(o->size, bound), o->crest / k));
+    double x[3], r_a[6], r_ab[9], n[3];
+    PM_TRY(pm_map_point(m->map, m->phi, S, &m->basis, x, r_a, r_ab, err));
+    const double k = curvature(r_a, r_ab, n);
+    double bound = fmin(o->size, o->crest / k);
+    if (o->chord > 0)
+        bound = fmin(bound, sqrt(8 * o->chord / k));
+    if (o->bound != NULL)
+        bound = fmin(bound, o->bound(o->data, x, n, k));
+    *size = fmax(o->size_min, bound);
 done:
     return status;
 }

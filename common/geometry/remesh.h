@@ -14,6 +14,9 @@ struct pm_remesh_opts {
     double chord;    /* edge length <= sqrt(8 chord / curvature), 0: no such bound [mm] */
     double growth;   /* largest change of the wanted length per unit length [1] */
     int sweeps;
+    /* a further upper bound of the length at a place with this outward unit normal, or NULL */
+    double (*bound)(const void *data, const double x[3], const double normal[3], double curvature);
+    const void *data;
     int mirror[3]; /* 1: mesh only S_j >= 0; nodes on the plane S_j = 0 stay on it (tube: x, y) */
 };
 
@@ -27,12 +30,12 @@ struct pm_patch {
     int32_t *tri; /* normal out of the closed surface                (nt x 3) */
 };
 
-/* Size h = min(size, crest / largest principal curvature) >= size_min at nodes and in the middle of
- * edges, limited in growth; edges end up within about [4/5, 4/3] h, 1.05 to 1.3 triangles for each
- * equilateral one with edges h. Starts from the triangulation of the control points. PM_INPUT where
- * that triangulation is unusable (folded in the parameter, not a manifold), PM_NUMERIC where the
- * map fails. `surface` is its number in messages. Cost: some 20 evaluations per node, 40 where
- * size_min < size. */
+/* Size h = min(size, crest / largest principal curvature, bound) >= size_min at nodes and in the
+ * middle of edges, limited in growth; edges end up within about [4/5, 4/3] h, 1.05 to 1.3 triangles
+ * for each equilateral one with edges h. Starts from the triangulation of the control points.
+ * PM_INPUT where that triangulation is unusable (folded in the parameter, not a manifold),
+ * PM_NUMERIC where the map fails. `surface` is its number in messages. Cost: some 20 evaluations
+ * per node, 40 where size_min < size. */
 enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,
                          struct pm_patch *p, struct pm_err *err);
 void pm_patch_release(struct pm_patch *p);

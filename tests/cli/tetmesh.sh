@@ -44,6 +44,15 @@ refused 3 "chamber outside the body" "chamber 1 is outside the body, at \(" "$te
 refused 3 "chamber through the wall" "chamber 1 is partly outside the body: it cuts exterior at \(" \
     "$tetmesh" "$work/pierce.h5" -o "$out/x.h5"
 refused 3 "chambers that overlap" "chamber 2 cuts chamber 1 at \(" "$tetmesh" "$work/overlap.h5" -o "$out/x.h5"
+# what flat faces of 8 mm would not show, or show where it is not
+for kind in graze near thin pinched; do "$LIB/bad_surface" $kind "$work/two.h5" "$work/$kind.h5"; done
+refused 3 "chambers that graze" "chamber 2 cuts chamber 1 at \(-2.2" "$tetmesh" "$work/graze.h5" -o "$out/x.h5"
+refused 3 "chambers that nearly touch" "chamber 2 comes within 0.0[0-9]* mm of chamber 1 at \(-2.1.*expected 0.0667 mm or more" \
+    "$tetmesh" "$work/near.h5" -o "$out/x.h5"
+expect 0 "a wall of a tenth of a millimetre" "$tetmesh" "$work/thin.h5" -o "$work/thin-mesh.h5" -v
+check "says that edges are shorter" grep -q "comes within.*: shorter edges there" "$work/err"
+check "it keeps its promises" "$LIB/check_mesh" "$work/thin-mesh.h5" "$work/thin.h5" 0.06
+refused 3 "a chamber that cuts itself" "chamber 1 cuts itself at \(9.0" "$tetmesh" "$work/pinched.h5" -o "$out/x.h5"
 refused 3 "chamber in a chamber" "chamber 2 is inside chamber 1, at \(" "$tetmesh" "$work/nested.h5" -o "$out/x.h5"
 "$LIB/bad_surface" pierce "$work/s.h5" "$work/alone.h5"
 refused 3 "chamber without its image" "control points are up to 6 mm off their images" "$tetmesh" "$work/alone.h5" -o "$out/x.h5"

@@ -7,7 +7,9 @@
 #include "tests/tap.h"
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/import_check.h"
+#include "tools/tetmesh/middle.h"
 #include "tools/tetmesh/split.h"
+#include "tools/tetmesh/walls.h"
 #include "tools/tetmesh/weights.h"
 
 static struct pm_surfaces robot;
@@ -104,6 +106,29 @@ done:
     return status;
 }
 
+static enum pm_status walls(struct pm_err *err)
+{
+    static double x[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, size[4] = {1, 1, 1, 1};
+    static double S[12];
+    static int32_t surface[4] = {-1, -1, -1, -1}, tri[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    static int32_t tag[4] = {-1, -1, -1, -1};
+    const struct pm_shell shell = {
+        .nn = 4, .nt = 4, .x = x, .size = size, .S = S, .surface = surface, .tri = tri, .tag = tag};
+    struct pm_middles m = {.s = NULL};
+    struct pm_shell bent = {.nn = 0};
+    struct pm_walls w = {.bent = NULL};
+    enum pm_status status = PM_OK;
+    PM_TRY(pm_middles_init(&m, &robot, 0, err));
+    PM_TRY(pm_shell_bend(&m, &shell, &bent, err));
+    PM_TRY(pm_shell_check(&shell, &bent, 0, err));
+    PM_TRY(pm_walls_init(&w, &bent, 1, 1, 1, err));
+done:
+    pm_walls_release(&w);
+    pm_shell_release(&bent);
+    pm_middles_release(&m);
+    return status;
+}
+
 static void check(const char *name, enum pm_status (*job)(struct pm_err *err))
 {
     enum pm_status status = PM_SYSTEM;
@@ -129,6 +154,7 @@ int main(void)
     check("edges and faces", edges);
     check("weights", weights);
     check("two-face tetrahedra", split);
+    check("distances of walls", walls);
     check("checks of an imported mesh", import_checks);
     pm_surfaces_release(&robot);
     return tap_done();

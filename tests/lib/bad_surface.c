@@ -1,4 +1,5 @@
 /* bad_surface WHAT IN.h5 OUT.h5: surfaces of two chambers spoilt for tests of tetmesh. */
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -23,6 +24,18 @@ static void nest(const struct pm_surface *a, struct pm_surface *b)
     memcpy(b->tri, a->tri, (size_t)(3 * a->nt) * sizeof *b->tri);
 }
 
+/* A waist at half height whose two sides go through each other. */
+static void pinch(struct pm_surface *s)
+{
+    double mean[3] = {0};
+    for (ptrdiff_t i = 0; i < 3 * s->n; i++)
+        mean[i % 3] += s->phi[i] / (double)s->n;
+    for (ptrdiff_t a = 0; a < s->n; a++) {
+        const double z = (s->phi[3 * a + 2] - mean[2]) / 5;
+        s->phi[3 * a] = mean[0] + (s->phi[3 * a] - mean[0]) * (1 - 1.4 * exp(-z * z));
+    }
+}
+
 static void turn(struct pm_surface *s)
 {
     for (ptrdiff_t t = 0; t < s->nt; t++) {
@@ -31,6 +44,13 @@ static void turn(struct pm_surface *s)
         s->tri[3 * t + 1] = a;
     }
 }
+
+/* The first chamber along x [mm]: -4.37 bring it to the second one. */
+static const struct {
+    const char *name;
+    double dx;
+} shifts[] = {{"outside", 100}, {"pierce", 6},   {"overlap", -8},
+              {"graze", -4.4},  {"near", -4.34}, {"thin", -4.3}};
 
 int main(int argc, char **argv)
 {
@@ -42,19 +62,18 @@ int main(int argc, char **argv)
     if (argc != 4)
         return PM_USAGE;
     PM_TRY(pm_surfaces_load(argv[2], &s, &err));
-    if (strcmp(argv[1], "outside") == 0)
-        shift(&s.s[1], 100);
-    else if (strcmp(argv[1], "pierce") == 0)
-        shift(&s.s[1], 6);
-    else if (strcmp(argv[1], "overlap") == 0)
-        shift(&s.s[1], -8);
-    else if (strcmp(argv[1], "both") == 0) {
+    for (size_t k = 0; k < sizeof shifts / sizeof shifts[0]; k++)
+        if (strcmp(argv[1], shifts[k].name) == 0)
+            shift(&s.s[1], shifts[k].dx);
+    if (strcmp(argv[1], "both") == 0) {
         shift(&s.s[1], -8);
         shift(&s.s[2], 8);
     } else if (strcmp(argv[1], "nested") == 0)
         nest(&s.s[1], &s.s[2]);
     else if (strcmp(argv[1], "turned") == 0)
         turn(&s.s[1]);
+    else if (strcmp(argv[1], "pinched") == 0)
+        pinch(&s.s[1]);
     PM_TRY(pm_h5_create(argv[3], "surface", &common, NULL, &f, &err));
     PM_TRY(pm_surfaces_write(f, &s, &err));
     status = pm_h5_commit(f, &err);

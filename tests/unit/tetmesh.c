@@ -1,4 +1,5 @@
-/* Kernels of tetmesh: Bernstein bound, mean ratio, edges and faces, two-face tetrahedra. */
+/* Kernels of tetmesh: Bernstein bound, mean ratio, edges and faces, two-face tetrahedra,
+ * distances of walls. */
 #include <string.h>
 
 #include "common/base/memory.h"
@@ -8,6 +9,7 @@
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/quality.h"
 #include "tools/tetmesh/split.h"
+#include "tools/tetmesh/walls.h"
 
 static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
@@ -155,6 +157,53 @@ static void check_split(int n, struct pm_err *err)
     pm_free(t.tet);
 }
 
+/* A cube from `low` to `high` on every axis, outward; returns the next triangle. */
+static ptrdiff_t cube(double low, double high, int32_t tag, struct pm_shell *s)
+{
+    static const int32_t face[36] = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                     2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+    for (int a = 0; a < 8; a++)
+        for (int i = 0; i < 3; i++)
+            s->x[3 * (s->nn + a) + i] = a >> i & 1 ? high : low;
+    for (int i = 0; i < 36; i++)
+        s->tri[3 * s->nt + i] = (int32_t)s->nn + face[i];
+    for (int t = 0; t < 12; t++)
+        s->tag[s->nt + t] = tag;
+    s->nn += 8;
+    return s->nt += 12;
+}
+
+/* A chamber from 3 to 5 mm in a body from 0 to 10 mm. */
+static void check_walls(struct pm_err *err)
+{
+    double x[48];
+    int32_t tri[72], tag[24];
+    struct pm_shell s = {.x = x, .tri = tri, .tag = tag};
+    struct pm_walls w;
+    const double outer[3] = {0, 4.1, 4.2}, inner[3] = {3, 4.1, 4.2};
+    const double left[3] = {-1, 0, 0}, right[3] = {1, 0, 0};
+    cube(0, 10, 0, &s);
+    cube(3, 5, 1, &s);
+    if (!ok(pm_walls_init(&w, &s, 2, 1, 20, err) == PM_OK, "distances"))
+        return;
+    near_rel("from the outside to the chamber", pm_walls_facing(&w, outer, right, 1, 20), 3, 1e-14);
+    near_rel("and back", pm_walls_facing(&w, inner, left, 1, 20), 3, 1e-14);
+    near_rel("across the chamber", pm_walls_facing(&w, inner, right, 0, 20), 2, 1e-14);
+    near_rel("nothing outside", pm_walls_facing(&w, outer, left, 0, 20), 20, 1e-14);
+    const struct pm_wall_side in = {&w, 1};
+    /* two edges over 3 mm; sqrt(2 d / k) over the 2 mm of air; 5 d is longer */
+    near_rel("flat: layers", pm_walls_bound(&in, inner, left, 0), 1.5, 1e-14);
+    near_rel("curved: the rise", pm_walls_bound(&in, inner, left, 4), 1, 1e-14);
+    pm_walls_release(&w);
+    s.nn = s.nt = 0;
+    s.planes = 1;
+    cube(3, 5, 1, &s);
+    ok(pm_walls_init(&w, &s, 0, 0, 20, err) == PM_OK, "with a mirror");
+    near_rel("to its own image", pm_walls_facing(&w, inner, left, 1, 20), 6, 1e-14);
+    ok(isinf(pm_walls_bound(&in, inner, left, 4)), "no layers asked, no bound");
+    pm_walls_release(&w);
+}
+
 int main(void)
 {
     struct pm_err err = {.status = PM_OK};
@@ -165,5 +214,6 @@ int main(void)
     check_split(3, &err);
     check_split(4, &err);
     check_split(6, &err);
+    check_walls(&err);
     return tap_done();
 }

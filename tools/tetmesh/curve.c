@@ -4,8 +4,6 @@
 #include <string.h>
 
 #include "common/base/memory.h"
-#include "common/geometry/remesh.h"
-#include "common/geometry/surface_map.h"
 #include "common/mechanics/extension.h"
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/quality.h"
@@ -24,16 +22,12 @@ struct curving {
     double *straight; /* straight node positions (nn x 3) [mm] */
     double *shift;    /* full displacement from there (nn x 3) [mm] */
     double *t;        /* its factor (nn) */
-    struct pm_map *map[PM_MAX_CHAMBERS + 1];
-    struct pm_basis basis;
+    struct pm_middles *middles;
 };
 
 static void release(struct curving *c)
 {
-    for (ptrdiff_t k = 0; k < c->s->ns; k++)
-        pm_map_free(c->map[k]);
     pm_edges_release(&c->edges);
-    pm_basis_release(&c->basis);
     pm_free(c->owner);
     pm_free(c->straight);
     pm_free(c->shift);
@@ -111,68 +105,6 @@ done:
     return status;
 }
 
-/* Rims (remesh.h) of the edge of two nodes. */
-static unsigned rims_of(const struct curving *c, ptrdiff_t k, ptrdiff_t a, ptrdiff_t b)
-{
-    const int32_t type = c->s->s[k].type;
-    const double *Sa = c->m->S + 3 * a, *Sb = c->m->S + 3 * b;
-    unsigned rim = 0;
-    if (type == PM_SURFACE_BSPLINE && Sa[2] == Sb[2])
-        rim = Sa[2] == 0 ? 1 : Sa[2] == 1 ? 2 : 0;
-    for (int j = 0; j < 2; j++)
-        if (c->shell->planes >> j & 1 && c->straight[3 * a + j] == 0 && c->straight[3 * b + j] == 0)
-            rim |= pm_rim_plane(type, j);
-    return rim;
-}
-
-/* Parameter of the foot of the middle of a chord: Newton for r_a . (r - middle) = 0 from the middle
- * of the parameters; on a rim v stays, on a mirror plane the steps are in it by symmetry but for
- * rounding. Steps are at most a quarter of the chord. */
-static enum pm_status foot(struct curving *c, ptrdiff_t k, unsigned rims, const double mid[3],
-                           double chord, double S[3], struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    const struct pm_surface *s = &c->s->s[k];
-    const int rim = s->type == PM_SURFACE_BSPLINE && (rims & 3) != 0;
-    pm_rim_constrain(s->type, rims, S);
-    for (int it = 0; it < 20; it++) {
-        double r[3], r_a[6], r_ab[9], f[2] = {0}, g[3] = {0}, h[3], d[2];
-        PM_TRY(pm_map_point(c->map[k], s->phi, S, &c->basis, r, r_a, r_ab, err));
-        for (int i = 0; i < 3; i++) {
-            f[0] -= r_a[i] * (r[i] - mid[i]);
-            f[1] -= r_a[3 + i] * (r[i] - mid[i]);
-            g[0] += r_a[i] * r_a[i];
-            g[1] += r_a[i] * r_a[3 + i];
-            g[2] += r_a[3 + i] * r_a[3 + i];
-        }
-        for (int j = 0; j < 3; j++) {
-            h[j] = g[j];
-            for (int i = 0; i < 3; i++)
-                h[j] += r_ab[3 * j + i] * (r[i] - mid[i]);
-        }
-        /* Gauss-Newton where the Hessian is not positive */
-        if (!(h[0] > 0.1 * g[0]) ||
-            !(h[0] * h[2] - h[1] * h[1] > 0.1 * (g[0] * g[2] - g[1] * g[1])))
-            memcpy(h, g, sizeof h);
-        const double det = h[0] * h[2] - h[1] * h[1];
-        d[0] = rim ? f[0] / h[0] : (h[2] * f[0] - h[1] * f[1]) / det;
-        d[1] = rim ? 0 : (h[0] * f[1] - h[1] * f[0]) / det;
-        const double step =
-            sqrt(fmax(g[0] * d[0] * d[0] + 2 * g[1] * d[0] * d[1] + g[2] * d[1] * d[1], 0));
-        const double cut = fmin(1, 0.25 * chord / step);
-        if (!(step > 1e-12 * chord))
-            break;
-        d[0] *= cut;
-        d[1] *= cut;
-        double next[3];
-        pm_map_move(s->type, S, d, next);
-        memcpy(S, next, sizeof next);
-        pm_rim_constrain(s->type, rims, S);
-    }
-done:
-    return status;
-}
-
 /* Parameters, owners and full displacements of the surface nodes. */
 static enum pm_status find_feet(struct curving *c, struct pm_curve_report *r, struct pm_err *err)
 {
@@ -190,22 +122,15 @@ static enum pm_status find_feet(struct curving *c, struct pm_curve_report *r, st
         c->t[a] = 1;
     for (ptrdiff_t e = 0; e < c->edges.n; e++) {
         const ptrdiff_t a = c->edges.low[e], b = c->edges.high[e], n = c->nv + e, k = c->owner[e];
-        double chord = 0, x[3];
+        const struct pm_edge_ends ends = {{c->straight + 3 * a, c->straight + 3 * b},
+                                          {m->S + 3 * a, m->S + 3 * b}};
+        double x[3];
         if (k < 0)
             continue;
-        for (int i = 0; i < 3; i++)
-            chord += (c->straight[3 * a + i] - c->straight[3 * b + i]) *
-                     (c->straight[3 * a + i] - c->straight[3 * b + i]);
-        const unsigned rims = rims_of(c, k, a, b);
-        pm_map_middle(c->s->s[k].type, m->S + 3 * a, m->S + 3 * b, m->S + 3 * n);
-        PM_TRY(foot(c, k, rims, c->straight + 3 * n, sqrt(chord), m->S + 3 * n, err));
-        PM_TRY(
-            pm_map_point(c->map[k], c->s->s[k].phi, m->S + 3 * n, &c->basis, x, NULL, NULL, err));
+        PM_TRY(pm_middle_find(c->middles, k, &ends, m->S + 3 * n, x, err));
         m->surface[n] = (int32_t)k;
         for (int i = 0; i < 3; i++)
-            c->shift[3 * n + i] = i < 2 && rims & pm_rim_plane(c->s->s[k].type, i)
-                                      ? 0
-                                      : x[i] - c->straight[3 * n + i];
+            c->shift[3 * n + i] = x[i] - c->straight[3 * n + i];
         r->surface_middles++;
     }
 done:
@@ -300,13 +225,14 @@ static enum pm_status weigh(struct curving *c, struct pm_err *err)
     PM_TRY(pm_weights_init(&w, c->s, m->nn, err));
     for (ptrdiff_t n = 0; n < m->nn; n++) {
         if (n < c->nv && m->surface[n] >= 0) {
-            PM_TRY(pm_weights_add(&w, c->map[m->surface[n]], m->surface[n], m->S + 3 * n, 1, err));
+            PM_TRY(pm_weights_add(&w, c->middles->map[m->surface[n]], m->surface[n], m->S + 3 * n,
+                                  1, err));
         } else if (m->surface[n] >= 0) {
             const int32_t ends[2] = {c->edges.low[n - c->nv], c->edges.high[n - c->nv]};
-            PM_TRY(pm_weights_add(&w, c->map[m->surface[n]], m->surface[n], m->S + 3 * n, c->t[n],
-                                  err));
+            PM_TRY(pm_weights_add(&w, c->middles->map[m->surface[n]], m->surface[n], m->S + 3 * n,
+                                  c->t[n], err));
             for (int k = 0; k < 2 && c->t[n] < 1; k++)
-                PM_TRY(pm_weights_add(&w, c->map[m->surface[ends[k]]], m->surface[ends[k]],
+                PM_TRY(pm_weights_add(&w, c->middles->map[m->surface[ends[k]]], m->surface[ends[k]],
                                       m->S + 3 * ends[k], (1 - c->t[n]) / 2, err));
         }
         PM_TRY(pm_weights_close_row(&w, m->x + 3 * n, err));
@@ -320,16 +246,15 @@ done:
     return status;
 }
 
-enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell *shell,
+enum pm_status pm_curve_mesh(struct pm_middles *middles, const struct pm_shell *shell,
                              const struct pm_tetra *tetra, struct pm_mesh *m,
                              struct pm_curve_report *r, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct curving c = {.s = s, .shell = shell, .m = m, .nv = tetra->nn};
+    struct curving c = {
+        .s = middles->s, .shell = shell, .m = m, .nv = tetra->nn, .middles = middles};
     *r = (struct pm_curve_report){0};
-    m->nc = s->ns - 1;
-    for (ptrdiff_t k = 0; k < s->ns; k++)
-        PM_TRY(pm_map_new(&s->s[k], &c.map[k], err));
+    m->nc = middles->s->ns - 1;
     PM_TRY(pm_edges_new(tetra->nn, tetra->ne, tetra->tet, &c.edges, err));
     PM_TRY(connect(&c, tetra, err));
     PM_TRY(add_faces(&c, tetra, err));

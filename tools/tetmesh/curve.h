@@ -3,7 +3,7 @@
 #define PM_CURVE_H
 
 #include "common/files/mesh.h"
-#include "tools/tetmesh/shell.h"
+#include "tools/tetmesh/middle.h"
 #include "tools/tetmesh/volume_gmsh.h"
 
 struct pm_curve_report {
@@ -23,7 +23,7 @@ extern const double pm_curve_bound;
  * by the Laplace extension of model 5. t = 1, but *= 0.7 around elements whose scaled Jacobian is
  * below the bound until none is left: x stays linear in the control points. PM_NUMERIC where that
  * does not succeed or where the tetrahedra do not fit the shell. */
-enum pm_status pm_curve_mesh(const struct pm_surfaces *s, const struct pm_shell *shell,
+enum pm_status pm_curve_mesh(struct pm_middles *middles, const struct pm_shell *shell,
                              const struct pm_tetra *tetra, struct pm_mesh *m,
                              struct pm_curve_report *r, struct pm_err *err);
 /* Smallest scaled Jacobian and straight mean ratio over the elements of x (nn x 3). */

@@ -4,6 +4,7 @@
 
 static const struct pm_option options[] = {
     {"size", 's', "MM", "wanted edge length (default: of the case)"},
+    {"layers", 'l', "N", "edges through a wall, at least (default: of the case)"},
     {"previous", 'p', "MESH.h5", "morph this mesh while its elements bear it"},
     {"keep-mesh", 'k', NULL, "with --previous: fail where its elements do not bear it"},
     {"record-failure", 'r', NULL,
@@ -51,6 +52,15 @@ static enum pm_status symmetry(const char *name, const char *value, struct tetme
     return PM_OK;
 }
 
+static enum pm_status layers(const char *name, const char *value, struct tetmesh_opts *o,
+                             struct pm_err *err)
+{
+    const enum pm_status status = pm_parse_long(name, value, &o->layers, err);
+    if (status == PM_OK && o->layers < 0)
+        return pm_fail(err, PM_USAGE, "option --%s: found %s, expected a number >= 0", name, value);
+    return status;
+}
+
 static enum pm_status option(void *data, const char *name, const char *value, struct pm_err *err)
 {
     struct tetmesh_opts *o = data;
@@ -79,6 +89,8 @@ static enum pm_status option(void *data, const char *name, const char *value, st
             *simple[k].flag = 1;
         return PM_OK;
     }
+    if (strcmp(name, "layers") == 0)
+        return layers(name, value, o, err);
     if (strcmp(name, "symmetry") == 0)
         return symmetry(name, value, o, err);
     int taken;
@@ -102,6 +114,6 @@ int main(int argc, char **argv)
         .max_operands = 1,
         .option = option,
         .run = run};
-    struct tetmesh_opts opts = {0};
+    struct tetmesh_opts opts = {.layers = -1};
     return pm_tool_main(&tool, argc, argv, &opts);
 }

@@ -6,6 +6,8 @@
 #include "common/files/surfaces.h"
 #include "tools/tetmesh/mirror.h"
 
+struct pm_walls;
+
 struct pm_shell {
     ptrdiff_t nn, nt;
     unsigned planes;  /* cut at these mirrors (mirror.h); coordinates on them are 0 exactly */
@@ -18,18 +20,25 @@ struct pm_shell {
     int32_t *tag;     /* PM_FACE_* of mesh.h (nt) */
 };
 
+struct pm_shell_opts {
+    double size;                  /* wanted edge length [mm] */
+    double timeout;               /* of gmsh [s], 0: none */
+    const struct pm_walls *walls; /* edges are shorter at thin walls (walls.h), or NULL */
+};
+
 /* Meshes all surfaces on the positive sides of the planes of y with edges of about `size` mm
  * (shorter where curved) and the planar caps at the rims of the exterior, which come from gmsh. The
  * faces on the planes are for pm_flat_cuts, after the checks. */
-enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirrors *y, double size,
-                              double timeout, struct pm_shell *shell, struct pm_err *err);
+enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirrors *y,
+                              const struct pm_shell_opts *o, struct pm_shell *shell,
+                              struct pm_err *err);
 void pm_shell_release(struct pm_shell *shell);
-
 /* Refuses (PM_INPUT, with surfaces and place) surfaces that are inside out, cut themselves or each
  * other, lie outside the body or inside another chamber, or come closer than 1/20 of the wanted
- * edge length; their images at mirror planes stand for what is behind these. */
-enum pm_status pm_shell_check(const struct pm_shell *shell, ptrdiff_t nchambers,
-                              struct pm_err *err);
+ * edge length there, judged by the bent shell (middle.h); their images at mirror planes stand for
+ * what is behind these. Then the flat one, which gmsh fills, must not meet itself. */
+enum pm_status pm_shell_check(const struct pm_shell *shell, const struct pm_shell *bent,
+                              ptrdiff_t nchambers, struct pm_err *err);
 /* Room for so many more. */
 enum pm_status pm_shell_grow(struct pm_shell *s, ptrdiff_t nn, ptrdiff_t nt, struct pm_err *err);
 /* "chamber 2", "exterior", "base", "tip". */

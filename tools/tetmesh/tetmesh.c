@@ -14,6 +14,7 @@
 #include "tools/tetmesh/shell.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/volume_gmsh.h"
+#include "tools/tetmesh/walls.h"
 #include "tools/tetmesh/weights.h"
 
 /* What a morphed mesh must keep: half of the smallest scaled Jacobian of a new one, and a mean
@@ -21,6 +22,12 @@
 static const double min_scaled = 0.1, min_mean_ratio = 0.1;
 /* A mesh below min_scaled is damped to this, so that it bears a further step. */
 static const double redamp_scaled = 0.15;
+
+/* What is asked of a new mesh. */
+struct sizes {
+    double size, timeout; /* [mm], [s] */
+    long layers;
+};
 
 /* Shells for gmsh: chambers that mirror planes cut belong to the outer one. */
 static int32_t number_parts(const struct pm_surfaces *s, const struct pm_mirrors *y,
@@ -37,28 +44,90 @@ static int32_t number_parts(const struct pm_surfaces *s, const struct pm_mirrors
     return n;
 }
 
-/* The part of the body on the positive sides of the planes of y. */
-static enum pm_status generate(const struct pm_surfaces *s, const struct pm_mirrors *y, double size,
-                               double timeout, struct pm_mesh *m, struct pm_err *err)
+struct shells {
+    struct pm_shell flat, bent;
+};
+
+static void shells_release(struct shells *s)
+{
+    pm_shell_release(&s->flat);
+    pm_shell_release(&s->bent);
+}
+
+static enum pm_status build(struct pm_middles *middles, const struct pm_mirrors *y,
+                            const struct pm_shell_opts *o, struct shells *s, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_shell shell = {0};
+    PM_TRY(pm_shell_build(middles->s, y, o, &s->flat, err));
+    PM_TRY(pm_shell_bend(middles, &s->flat, &s->bent, err));
+done:
+    return status;
+}
+
+/* Builds them again with edges as the distances in *s ask. */
+static enum pm_status rebuild(struct pm_middles *middles, const struct pm_mirrors *y, long layers,
+                              int apart, struct pm_shell_opts o, struct shells *s,
+                              struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_walls walls = {.bent = NULL};
+    struct shells first = *s;
+    *s = (struct shells){.flat = {.nn = 0}};
+    PM_TRY(pm_walls_init(&walls, &first.bent, layers, apart, o.size, err));
+    o.walls = &walls;
+    PM_TRY(build(middles, y, &o, s, err));
+done:
+    pm_walls_release(&walls);
+    shells_release(&first);
+    return status;
+}
+
+/* The surfaces as triangles that pass all checks; where facets meet, once more with shorter ones.
+ */
+static enum pm_status triangulate(struct pm_middles *middles, const struct pm_mirrors *y,
+                                  const struct sizes *sizes, struct shells *s, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const ptrdiff_t nchambers = middles->s->ns - 1;
+    const struct pm_shell_opts o = {.size = sizes->size, .timeout = sizes->timeout};
+    PM_TRY(build(middles, y, &o, s, err));
+    if (sizes->layers > 0)
+        PM_TRY(rebuild(middles, y, sizes->layers, 0, o, s, err));
+    status = pm_shell_check(&s->flat, &s->bent, nchambers, err);
+    if (status == PM_INPUT) {
+        pm_log(1, "%s: shorter edges there", err->text);
+        *err = (struct pm_err){.status = PM_OK};
+        PM_TRY(rebuild(middles, y, sizes->layers, 1, o, s, err));
+        PM_TRY(pm_shell_check(&s->flat, &s->bent, nchambers, err));
+    }
+done:
+    return status;
+}
+
+/* The part of the body on the positive sides of the planes of y. */
+static enum pm_status generate(const struct pm_surfaces *s, const struct pm_mirrors *y,
+                               const struct sizes *sizes, struct pm_mesh *m, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_middles middles = {.s = NULL};
+    struct shells shells = {.flat = {.nn = 0}};
+    struct pm_shell *shell = &shells.flat;
     struct pm_tetra tetra = {0};
     struct pm_curve_report r;
     int32_t *part = NULL;
     ptrdiff_t left = 0;
-    PM_TRY(pm_shell_build(s, y, size, timeout, &shell, err));
-    PM_TRY(pm_shell_check(&shell, s->ns - 1, err));
-    PM_TRY(pm_flat_cuts(&shell, size, timeout, err));
-    PM_TRY(PM_NEW(part, shell.nt, err));
-    const int32_t parts = number_parts(s, y, &shell, part);
-    const struct pm_gmsh_input in = {shell.nn, shell.nt, shell.x, shell.tri, part, parts};
-    PM_TRY(pm_gmsh_volume(&in, timeout, &tetra, err));
+    PM_TRY(pm_middles_init(&middles, s, y->planes, err));
+    PM_TRY(triangulate(&middles, y, sizes, &shells, err));
+    PM_TRY(pm_flat_cuts(shell, sizes->size, sizes->timeout, err));
+    PM_TRY(PM_NEW(part, shell->nt, err));
+    const int32_t parts = number_parts(s, y, shell, part);
+    const struct pm_gmsh_input in = {shell->nn, shell->nt, shell->x, shell->tri, part, parts};
+    PM_TRY(pm_gmsh_volume(&in, sizes->timeout, &tetra, err));
     if (tetra.delaunay)
         pm_warn("the HXT mesher failed (%s): meshed by Delaunay", tetra.why);
-    PM_TRY(pm_split_two_faces(&shell, &tetra, &left, err));
+    PM_TRY(pm_split_two_faces(shell, &tetra, &left, err));
     pm_log(2, "%td tetrahedra keep two faces on one surface", left);
-    PM_TRY(pm_curve_mesh(s, &shell, &tetra, m, &r, err));
+    PM_TRY(pm_curve_mesh(&middles, shell, &tetra, m, &r, err));
     m->origin = PM_ORIGIN_GENERATED;
     m->delaunay = tetra.delaunay;
     pm_log(1,
@@ -66,7 +135,8 @@ static enum pm_status generate(const struct pm_surfaces *s, const struct pm_mirr
            "elements, %d sweeps)",
            r.damped, r.surface_middles, m->max_damping, r.off, r.bad, r.sweeps);
 done:
-    pm_shell_release(&shell);
+    pm_middles_release(&middles);
+    shells_release(&shells);
     pm_free(tetra.x);
     pm_free(tetra.tet);
     pm_free(part);
@@ -152,10 +222,12 @@ static enum pm_status make_new(const struct tetmesh_opts *o, const struct pm_sur
                                struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    const double size = o->size > 0 ? o->size : s->pcase.mesh_size;
+    const struct sizes sizes = {.size = o->size > 0 ? o->size : s->pcase.mesh_size,
+                                .timeout = o->timeout,
+                                .layers = o->layers >= 0 ? o->layers : s->pcase.mesh_layers};
     double mean_ratio;
     PM_TRY(pm_mirrors_check(s, y, err));
-    PM_TRY(generate(s, y, size, o->timeout, m, err));
+    PM_TRY(generate(s, y, &sizes, m, err));
     for (int axis = 0; axis < 2; axis++)
         if ((y->planes & ~planes) >> axis & 1)
             PM_TRY(pm_mesh_reflect(s, y, axis, m, err));
@@ -259,11 +331,12 @@ enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_commo
                           (o->material.law != NULL || o->material.n > 0) + (o->mu > 0);
     if ((o->import != NULL) == (common->noperands == 1))
         return pm_fail(err, PM_USAGE, "expected either SURF.h5 or --import FILE.msh");
-    if (o->import != NULL &&
-        (o->size > 0 || o->timeout > 0 || o->previous != NULL || o->record_failure || o->whole))
-        return pm_fail(err, PM_USAGE,
-                       "--size, --timeout, --previous, --record-failure and --symmetry none do not "
-                       "go with --import");
+    if (o->import != NULL && (o->size > 0 || o->layers >= 0 || o->timeout > 0 ||
+                              o->previous != NULL || o->record_failure || o->whole))
+        return pm_fail(
+            err, PM_USAGE,
+            "--size, --layers, --timeout, --previous, --record-failure and --symmetry none do not "
+            "go with --import");
     if (o->import == NULL && (o->promote || o->have_reference || o->case_file != NULL ||
                               materials > 0 || o->material.kappa > 0))
         return pm_fail(err, PM_USAGE,

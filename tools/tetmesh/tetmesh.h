@@ -7,11 +7,12 @@
 
 struct tetmesh_opts {
     double size;          /* wanted edge length [mm], 0: of the case */
+    long layers;          /* elements through a wall, 0: any, -1: of the case */
     double timeout;       /* [s], 0: none */
     const char *previous; /* mesh to morph, or NULL */
     int record_failure;
     int keep_mesh; /* fail where the previous mesh cannot be morphed */
-    int whole; /* the whole body even where a part of it is a model */
+    int whole;     /* the whole body even where a part of it is a model */
     /* instead of surfaces: */
     const char *import;    /* gmsh file, or NULL */
     int promote;           /* raise 4-node tetrahedra to 10 nodes */
