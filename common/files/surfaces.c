@@ -232,15 +232,20 @@ void pm_surfaces_scatter(struct pm_surfaces *s, const double *phi)
         memcpy(s->s[k].phi, phi + 3 * s->offset[k], (size_t)(3 * s->s[k].n) * sizeof *phi);
 }
 
+void pm_surface_release(struct pm_surface *s)
+{
+    pm_free(s->phi);
+    pm_free(s->free);
+    pm_free(s->Phi);
+    pm_free(s->d0);
+    pm_free(s->tri);
+    *s = (struct pm_surface){.n = 0};
+}
+
 void pm_surfaces_release(struct pm_surfaces *s)
 {
-    for (ptrdiff_t k = 0; s->s != NULL && k < s->ns; k++) {
-        pm_free(s->s[k].phi);
-        pm_free(s->s[k].free);
-        pm_free(s->s[k].Phi);
-        pm_free(s->s[k].d0);
-        pm_free(s->s[k].tri);
-    }
+    for (ptrdiff_t k = 0; s->s != NULL && k < s->ns; k++)
+        pm_surface_release(&s->s[k]);
     pm_free(s->s);
     pm_free(s->offset);
     pm_free(s->perm);

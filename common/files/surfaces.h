@@ -55,6 +55,7 @@ enum pm_status pm_surfaces_copy(const struct pm_surfaces *from, struct pm_surfac
                                 struct pm_err *err);
 enum pm_status pm_surface_copy(const struct pm_surface *from, struct pm_surface *to,
                                struct pm_err *err);
+void pm_surface_release(struct pm_surface *s);
 /* All control points as one (N x 3) array, and back. */
 void pm_surfaces_gather(const struct pm_surfaces *s, double *phi);
 void pm_surfaces_scatter(struct pm_surfaces *s, const double *phi);

@@ -38,19 +38,18 @@ enum pm_status pm_distance_project(const struct pm_map *map, int32_t type, const
                                    double r[3], double *distance, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    double r_a[6], r_ab[9], d[3], y[2], trial[3], x[3], len;
+    double r_a[6], r_ab[9], d[3], y[2], trial[3], x[3], x_a[6], x_ab[9], len;
 
-    PM_TRY(pm_map_point(map, phi, S, work, r, NULL, NULL, err));
+    PM_TRY(pm_map_point(map, phi, S, work, r, r_a, r_ab, err));
     *distance = hypot(hypot(p[0] - r[0], p[1] - r[1]), p[2] - r[2]);
     for (int it = 0; it < 30; it++) {
         double best = *distance;
-        PM_TRY(pm_map_point(map, phi, S, work, r, r_a, r_ab, err));
         for (int j = 0; j < 3; j++)
             d[j] = p[j] - r[j];
         len = foot_step(d, r_a, r_ab, y);
         for (int cut = 0; cut < 8 && len > 1e-6; cut++, y[0] /= 2, y[1] /= 2, len /= 2) {
             pm_map_move(type, S, y, trial);
-            PM_TRY(pm_map_point(map, phi, trial, work, x, NULL, NULL, err));
+            PM_TRY(pm_map_point(map, phi, trial, work, x, x_a, x_ab, err));
             *distance = hypot(hypot(p[0] - x[0], p[1] - x[1]), p[2] - x[2]);
             if (*distance < best)
                 break;
@@ -61,6 +60,8 @@ enum pm_status pm_distance_project(const struct pm_map *map, int32_t type, const
         }
         memcpy(S, trial, sizeof trial);
         memcpy(r, x, sizeof x);
+        memcpy(r_a, x_a, sizeof x_a);
+        memcpy(r_ab, x_ab, sizeof x_ab);
     }
 done:
     return status;

@@ -180,7 +180,7 @@ static enum pm_status add_row(struct pm_samples *m, ptrdiff_t i, const struct pm
     ptrdiff_t first = m->ptr[i];
 
     if (m->col == NULL || first + b->n > *capacity) {
-        ptrdiff_t more = 2 * *capacity + b->n;
+        ptrdiff_t more = first + (m->n - i + 64) * b->n; /* as if the others were like it */
         void *col = pm_realloc(m->col, more, sizeof *m->col, err), *c, *c_a, *c_ab;
         m->col = col != NULL ? col : m->col;
         c = pm_realloc(m->c, more, sizeof *m->c, err);

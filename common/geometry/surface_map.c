@@ -223,10 +223,10 @@ static enum pm_status tube_basis(const struct pm_map *m, const double S[3], int 
     ptrdiff_t ia[4];
     size_t first, last;
 
-    if (gsl_bspline_deriv_eval_nonzero(v, 2, m->dB, &first, &last, m->axial) != 0)
+    if (gsl_bspline_deriv_eval_nonzero(v, (size_t)order, m->dB, &first, &last, m->axial) != 0)
         return pm_fail(err, PM_NUMERIC, "cannot evaluate the exterior at v = %g", S[2]);
     for (size_t k = 0; k < 4; k++)
-        for (size_t d = 0; d < 3; d++)
+        for (size_t d = 0; d <= (size_t)order; d++)
             M[d][k] = gsl_matrix_get(m->dB, k, d);
     around(m->nu, S, ia, N);
     for (int j = 0; j < 4; j++)
@@ -238,6 +238,8 @@ static enum pm_status tube_basis(const struct pm_map *m, const double S[3], int 
                 continue;
             b->c_a[2 * k] = N[1][i] * M[0][j];
             b->c_a[2 * k + 1] = N[0][i] * M[1][j];
+            if (order < 2)
+                continue;
             b->c_ab[3 * k] = N[2][i] * M[0][j];
             b->c_ab[3 * k + 1] = N[1][i] * M[1][j];
             b->c_ab[3 * k + 2] = N[0][i] * M[2][j];

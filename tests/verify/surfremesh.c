@@ -258,6 +258,47 @@ static void exterior(void)
     pm_case_release(&c);
 }
 
+/* An exterior too rough for its fixed number of control points keeps them; the chambers get theirs.
+ */
+static void partly(void)
+{
+    struct pm_err err = {0};
+    struct pm_case c = {0};
+    struct pm_surfaces s = {0}, to = {0};
+    struct pm_surfgen_report fit;
+    const struct surfremesh_opts o = {.alpha = 0.1};
+    struct surfremesh_report report = {0};
+
+    if (pm_case_parse(ROUND, "round", &c, &err) != PM_OK ||
+        pm_surfgen(&c, &s, &fit, &err) != PM_OK ||
+        surfremesh_report_init(&report, s.ns, &err) != PM_OK) {
+        ok(0, "%s", err.text);
+        return;
+    }
+    struct pm_surface *f = &s.s[0];
+    for (ptrdiff_t i = 2 * f->nu; i < f->n - 2 * f->nu; i++) {
+        const double v = f->Phi[3 * i + 2], wave = 1 + (i / f->nu % 2 ? 0.05 : -0.05);
+        f->phi[3 * i] *= wave;
+        f->phi[3 * i + 1] *= wave;
+        f->phi[3 * i + 2] = 60 * (v - 1.9 * v * (1 - v) * v);
+    }
+    f->spacing[0] = f->spacing[1] = 0;
+    s.pcase.chamber[0].spacing = s.pcase.chamber[1].spacing = 2.5;
+    ok(pm_surfremesh(&s, &o, &to, &report, &err) == PM_OK && !report.kept, "a rough exterior: %s%s",
+       err.text, report.reason);
+    ok(strncmp(report.reason, "surface 0: ", 11) == 0 && report.spacing_before[0] > 2,
+       "it is kept: %s", report.reason);
+    ok(!report.kept && to.s[0].n == f->n &&
+           memcmp(to.s[0].phi, f->phi, 3 * (size_t)f->n * sizeof(double)) == 0,
+       "bit for bit");
+    ok(!report.kept && to.s[1].n > 1.4 * (double)s.s[1].n && to.s[1].n == to.s[2].n,
+       "chambers have %td control points for %td", report.kept ? 0 : to.s[1].n, s.s[1].n);
+    surfremesh_report_release(&report);
+    pm_surfaces_release(&s);
+    pm_surfaces_release(&to);
+    pm_case_release(&c);
+}
+
 int main(void)
 {
     struct pm_err err = {0};
@@ -272,6 +313,7 @@ int main(void)
     others(&first);
     stretched(&first);
     exterior();
+    partly();
     radial();
     pm_surfaces_release(&first);
     pm_case_release(&c);

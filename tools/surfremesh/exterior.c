@@ -55,16 +55,13 @@ enum pm_status pm_exterior_counts(const struct pm_surface *s, ptrdiff_t *nu, ptr
 /* A quarter of the tangential way of control point i to the mean of its neighbours, those further
  * off weighing more (the gradient of the sum of edges^4): with equal weights the grid would be
  * harmonic and leave what protrudes bare. In parameters. */
-static enum pm_status advance(const struct pm_surface *s, const struct pm_map *map,
-                              const struct pm_surface *to, const double *S, ptrdiff_t i,
-                              struct pm_basis *work, double step[2], struct pm_err *err)
+static void advance(const struct pm_surface *to, ptrdiff_t i, const double r_a[6], double step[2])
 {
     const double *x = to->phi, *v = to->Phi, pitch = (double)(to->nv - 3);
     ptrdiff_t nu = to->nu, row = i / nu * nu;
     const double *n[4] = {&x[3 * (row + (i + 1) % nu)], &x[3 * (row + (i + nu - 1) % nu)],
                           &x[3 * (i + nu)], &x[3 * (i - nu)]};
-    double r_a[6], g[3] = {0}, f[2] = {0}, way[3] = {0}, sum = 0, det;
-    enum pm_status status = pm_map_point(map, s->phi, &S[3 * i], work, NULL, r_a, NULL, err);
+    double g[3] = {0}, f[2] = {0}, way[3] = {0}, sum = 0, det;
 
     /* parts of a pitch between the rows: 2/3 next to a rim's own */
     const double part[4] = {1, 1, pitch * (v[3 * (i + nu) + 2] - v[3 * i + 2]),
@@ -72,7 +69,7 @@ static enum pm_status advance(const struct pm_surface *s, const struct pm_map *m
 
     for (int k = 0; k < 4; k++) {
         double e[3] = {n[k][0] - x[3 * i], n[k][1] - x[3 * i + 1], n[k][2] - x[3 * i + 2]};
-        double weight = (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) / pow(part[k], 3);
+        double weight = (e[0] * e[0] + e[1] * e[1] + e[2] * e[2]) / (part[k] * part[k] * part[k]);
         for (int j = 0; j < 3; j++)
             way[j] += weight * e[j];
         sum += weight;
@@ -88,7 +85,6 @@ static enum pm_status advance(const struct pm_surface *s, const struct pm_map *m
     det = g[0] * g[2] - g[1] * g[1];
     step[0] = (g[2] * f[0] - g[1] * f[1]) / det / 4;
     step[1] = (g[0] * f[1] - g[1] * f[0]) / det / 4;
-    return status;
 }
 
 /* Lengths of the old surface's lines along and around, in parts of their mean: length[k] at k / n
@@ -165,15 +161,17 @@ static enum pm_status relax(const struct pm_surface *s, const struct pm_map *map
 {
     enum pm_status status = PM_OK;
     struct pm_basis work = {0};
-    double *step = NULL;
+    double *step = NULL, *r_a = NULL;
     const ptrdiff_t first = 2 * to->nu, last = to->n - 2 * to->nu;
 
     PM_TRY(PM_NEW(step, 2 * to->n, err));
+    PM_TRY(PM_NEW(r_a, 6 * to->n, err));
     for (int sweep = 0; sweep <= SWEEPS; sweep++) { /* Jacobi: keeps the symmetry */
         for (ptrdiff_t i = 0; i < to->n; i++)
-            PM_TRY(pm_map_point(map, s->phi, &S[3 * i], &work, &to->phi[3 * i], NULL, NULL, err));
+            PM_TRY(pm_map_point(map, s->phi, &S[3 * i], &work, &to->phi[3 * i], &r_a[6 * i], NULL,
+                                err));
         for (ptrdiff_t i = first; i < last && sweep < SWEEPS; i++)
-            PM_TRY(advance(s, map, to, S, i, &work, &step[2 * i], err));
+            advance(to, i, &r_a[6 * i], &step[2 * i]);
         for (ptrdiff_t i = first; i < last && sweep < SWEEPS; i++) {
             double moved[3];
             pm_map_move(s->type, &S[3 * i], &step[2 * i], moved);
@@ -183,6 +181,7 @@ static enum pm_status relax(const struct pm_surface *s, const struct pm_map *map
 done:
     pm_basis_release(&work);
     pm_free(step);
+    pm_free(r_a);
     return status;
 }
 

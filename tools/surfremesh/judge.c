@@ -12,16 +12,14 @@
 
 static const double DISTANCE_MAX = 0.3, VOLUME_OFF = 0.005, CV_GOOD = 0.2, UNEVEN_GOOD = 2;
 
-/* The first objection stays; k: the surface to blame, -1: several. */
-__attribute__((format(printf, 3, 4))) static void object(struct rebuild *r, ptrdiff_t k,
-                                                         const char *format, ...)
+/* The first objection stays. */
+__attribute__((format(printf, 2, 3))) static void object(struct rebuild *r, const char *format, ...)
 {
     struct surfremesh_report *report = r->report;
     va_list args;
 
     if (report->reason[0] != '\0')
         return;
-    r->blame = k;
     va_start(args, format);
     vsnprintf(report->reason, sizeof report->reason, format, args);
     va_end(args);
@@ -33,10 +31,10 @@ int rebuild_misses(const struct rebuild *r, ptrdiff_t k)
              fabs(r->report->volume_ratio[k] - 1) <= VOLUME_OFF);
 }
 
-static void judge_surface(struct rebuild *r, const struct pm_surfaces *to, ptrdiff_t k)
+static void judge(struct rebuild *r, ptrdiff_t k)
 {
     struct surfremesh_report *p = r->report;
-    const struct pm_surface *f = &to->s[k];
+    const struct pm_surface *f = &r->made[k];
     const int drifts = r->method[k] == SURFREMESH_PAPER;
 
     for (ptrdiff_t t = 0; t < f->nt; t++) {
@@ -44,19 +42,19 @@ static void judge_surface(struct rebuild *r, const struct pm_surfaces *to, ptrdi
         if (!(pm_parameter_orientation(f->type, &f->Phi[3 * (ptrdiff_t)v[0]],
                                        &f->Phi[3 * (ptrdiff_t)v[1]],
                                        &f->Phi[3 * (ptrdiff_t)v[2]]) > 0))
-            object(r, k,
+            object(r,
                    "surface %td: triangle %td of its new control points is folded in the parameter",
                    k, t);
     }
     if (!drifts && !(p->max[k] <= DISTANCE_MAX))
-        object(r, k, "surface %td: new surface lies up to %.3f mm off the old one, expected <= %g",
-               k, p->max[k], DISTANCE_MAX);
+        object(r, "surface %td: new surface lies up to %.3f mm off the old one, expected <= %g", k,
+               p->max[k], DISTANCE_MAX);
     if (!drifts && !(fabs(p->volume_ratio[k] - 1) <= VOLUME_OFF))
-        object(r, k, "surface %td: enclosed volume changes by %.2f %%, expected <= %g %%", k,
+        object(r, "surface %td: enclosed volume changes by %.2f %%, expected <= %g %%", k,
                100 * (p->volume_ratio[k] - 1), 100 * VOLUME_OFF);
     if (!drifts &&
         !(p->spacing_after[k] <= fmax(p->spacing_before[k], k == 0 ? UNEVEN_GOOD : CV_GOOD)))
-        object(r, k, "surface %td: variation of the spacing grows from %.3f to %.3f", k,
+        object(r, "surface %td: variation of the spacing grows from %.3f to %.3f", k,
                p->spacing_before[k], p->spacing_after[k]);
 }
 
@@ -76,8 +74,8 @@ static enum pm_status judge_embedding(struct rebuild *r, const struct pm_surface
         PM_TRY(pm_map_point(map, f->phi, &f->Phi[3 * i], &work, &x[3 * i], NULL, NULL, err));
     PM_TRY(pm_collide_pierce(x, f->nt, f->tri, &c, err));
     if (c.a >= 0)
-        object(r, k, "surface %td: passes through itself at (%.4g, %.4g, %.4g)", k, c.at[0],
-               c.at[1], c.at[2]);
+        object(r, "surface %td: passes through itself at (%.4g, %.4g, %.4g)", k, c.at[0], c.at[1],
+               c.at[2]);
 done:
     pm_map_free(map);
     pm_basis_release(&work);
@@ -85,24 +83,28 @@ done:
     return status;
 }
 
-static enum pm_status judge_robot(struct rebuild *r, const struct pm_surfaces *to,
-                                  struct pm_err *err)
+enum pm_status rebuild_judge_robot(struct rebuild *r, const struct pm_surfaces *to,
+                                   struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const struct pm_check *before = &r->before;
     struct pm_check after;
     double wall = to->pcase.wall_min;
 
+    r->report->reason[0] = '\0';
+    r->blame[0] = r->blame[1] = -1;
     PM_TRY(pm_surfaces_measure(to, &after, err));
     if (after.fault[0] != '\0')
-        object(r, -1, "%s", after.fault);
-    if (after.wall.distance < fmin(wall, before->wall.distance - 0.02 * wall))
-        object(r, -1,
-               "wall between surfaces %d and %d shrinks from %.3f to %.3f at (%.4g, %.4g, %.4g)",
+        object(r, "%s", after.fault);
+    if (after.wall.distance < fmin(wall, before->wall.distance - 0.02 * wall)) {
+        r->blame[0] = r->source[after.wall.a];
+        r->blame[1] = r->source[after.wall.b];
+        object(r, "wall between surfaces %d and %d shrinks from %.3f to %.3f at (%.4g, %.4g, %.4g)",
                after.wall.a, after.wall.b, before->wall.distance, after.wall.distance,
                after.wall.x[0], after.wall.x[1], after.wall.x[2]);
+    }
     if (after.cap < fmin(to->pcase.cap_min, before->cap - 0.02 * wall))
-        object(r, -1, "distance from the end planes shrinks from %.3f to %.3f mm", before->cap,
+        object(r, "distance from the end planes shrinks from %.3f to %.3f mm", before->cap,
                after.cap);
 done:
     return status;
@@ -121,7 +123,7 @@ static enum pm_status measure(const struct rebuild *r, const struct pm_surface *
     PM_TRY(compare_side_init(&now, f, err));
     PM_TRY(compare_side_init(&before, was, err));
     PM_TRY(PM_NEW(S, 3 * now.m.n, err));
-    rebuild_carry(r, f, k, COMPARE_CUTS, S);
+    pm_samples_parameters(f, r->carried[k] != NULL ? r->carried[k] : f->Phi, COMPARE_CUTS, S);
     PM_TRY(compare_surfaces(&before, &now, S, &p->mean[k], &p->max[k], err));
     p->volume_ratio[k] =
         pm_samples_volume(&now.m, f->phi, 0) / pm_samples_volume(&before.m, was->phi, 0);
@@ -138,30 +140,23 @@ done:
     return status;
 }
 
-enum pm_status rebuild_judge(struct rebuild *r, const struct pm_surfaces *to, struct pm_err *err)
+enum pm_status rebuild_judge_surface(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
 {
-    enum pm_status status = PM_OK;
+    enum pm_status status;
     struct surfremesh_report *p = r->report;
 
-    for (ptrdiff_t k = 0; k < to->ns; k++) {
-        const ptrdiff_t source = r->source[k];
-        if (source < k) { /* an image is judged with its source */
-            p->spacing_after[k] = p->spacing_after[source];
-            p->volume_ratio[k] = p->volume_ratio[source];
-            p->mean[k] = p->mean[source];
-            p->max[k] = p->max[source];
+    p->reason[0] = '\0';
+    PM_TRY(measure(r, &r->made[k], k, err));
+    judge(r, k);
+    PM_TRY(judge_embedding(r, &r->made[k], k, err));
+    for (ptrdiff_t image = k + 1; image < r->from->ns; image++) {
+        if (r->source[image] != k)
             continue;
-        }
-        p->spacing_after[k] = p->spacing_before[k];
-        p->volume_ratio[k] = 1;
-        p->mean[k] = p->max[k] = 0;
-        if (!r->redo[k])
-            continue;
-        PM_TRY(measure(r, &to->s[k], k, err));
-        judge_surface(r, to, k);
-        PM_TRY(judge_embedding(r, &to->s[k], k, err));
+        p->spacing_after[image] = p->spacing_after[k];
+        p->volume_ratio[image] = p->volume_ratio[k];
+        p->mean[image] = p->mean[k];
+        p->max[image] = p->max[k];
     }
-    PM_TRY(judge_robot(r, to, err));
 done:
     return status;
 }

@@ -11,65 +11,17 @@
 #include "tools/surfremesh/chamber.h"
 #include "tools/surfremesh/exterior.h"
 
+static void drop_made(struct rebuild *r, ptrdiff_t k)
+{
+    pm_surface_release(&r->made[k]);
+    pm_free(r->carried[k]);
+    r->carried[k] = NULL;
+}
+
 void rebuild_release(struct rebuild *r)
 {
-    for (ptrdiff_t k = 0; k <= PM_MAX_CHAMBERS; k++) {
-        pm_free(r->carried[k]);
-        r->carried[k] = NULL;
-    }
-}
-
-static enum pm_status reseed_surface(struct rebuild *r, ptrdiff_t k, struct pm_surfaces *to,
-                                     struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    const struct pm_surfaces *s = r->from;
-    const struct pm_symmetry *y = &s->pcase.symmetry;
-    const ptrdiff_t g = r->by[k], source = r->source[k];
-
-    if (!r->redo[k]) {
-        PM_TRY(pm_surface_copy(&s->s[k], &to->s[k], err));
-    } else if (k == 0) {
-        PM_TRY(pm_exterior_spread(&s->s[0], s->pcase.height, r->nu, r->nv, &to->s[0],
-                                  &r->carried[0], err));
-    } else if (source < k) {
-        PM_TRY(pm_symmetry_image(y, g, &to->s[source], &to->s[k], err));
-    } else {
-        PM_TRY(
-            pm_chamber_remesh(s, k, r->method[k], r->spacing[k], &to->s[k], &r->carried[k], err));
-    }
-done:
-    return status;
-}
-
-/* New parameters; places still those of the old surfaces. */
-static enum pm_status reseed(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    const struct pm_surfaces *s = r->from;
-
-    PM_TRY(pm_case_copy(&s->pcase, &to->pcase, err));
-    to->ns = s->ns;
-    PM_TRY(PM_NEW(to->s, to->ns, err));
-    PM_TRY(PM_NEW(to->offset, to->ns + 1, err));
-    memcpy(to->reference_point, s->reference_point, sizeof to->reference_point);
-    for (ptrdiff_t k = 0; k < to->ns; k++) {
-        r->blame = r->source[k];
-        PM_TRY(reseed_surface(r, k, to, err));
-        to->offset[k + 1] = to->offset[k] + to->s[k].n;
-    }
-    r->blame = -1;
-    /* images of new control points agree to the rounding of f_old */
-    PM_TRY(pm_symmetry_find(to, 1e-6 * s->pcase.height, err));
-    PM_TRY(pm_symmetrise_reference(to, err));
-done:
-    return status;
-}
-
-void rebuild_carry(const struct rebuild *r, const struct pm_surface *to, ptrdiff_t k,
-                   ptrdiff_t cuts, double *S)
-{
-    pm_samples_parameters(to, r->carried[k] != NULL ? r->carried[k] : to->Phi, cuts, S);
+    for (ptrdiff_t k = 0; k <= PM_MAX_CHAMBERS; k++)
+        drop_made(r, k);
 }
 
 /* Samples of one surface, for its fit. */
@@ -92,27 +44,26 @@ static void target_release(struct target *t)
 enum { FIT_CUTS = 2 };
 
 /* The paper matches the control points alone, the others four samples a triangle by their area. */
-static enum pm_status aim(const struct rebuild *r, const struct pm_surface *f,
-                          const struct pm_samples *m, ptrdiff_t k, const struct pm_map *old,
-                          struct target *t, struct pm_err *err)
+static enum pm_status aim(const struct rebuild *r, const struct pm_samples *m, ptrdiff_t k,
+                          const struct pm_map *old, struct target *t, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const int paper = r->method[k] == SURFREMESH_PAPER;
+    const struct pm_surface *f = &r->made[k];
     const double *carried = r->carried[k] != NULL ? r->carried[k] : f->Phi;
-    const ptrdiff_t first = m->first[k];
     struct pm_basis work = {0};
 
-    t->nq = paper ? f->n : m->first[k + 1] - first;
-    PM_TRY(pm_copy_array(&t->S, paper ? f->Phi : &m->S[3 * first], 3 * t->nq, sizeof *t->S, err));
+    t->nq = paper ? f->n : m->n;
+    PM_TRY(pm_copy_array(&t->S, paper ? f->Phi : m->S, 3 * t->nq, sizeof *t->S, err));
     PM_TRY(PM_NEW(t->old, 3 * t->nq, err));
     PM_TRY(PM_NEW(t->x, 3 * t->nq, err));
     PM_TRY(PM_NEW(t->weight, t->nq, err));
     if (paper)
         memcpy(t->old, carried, 3 * (size_t)t->nq * sizeof *carried);
     else
-        rebuild_carry(r, f, k, FIT_CUTS, t->old);
+        pm_samples_parameters(f, carried, FIT_CUTS, t->old);
     for (ptrdiff_t q = 0; q < t->nq; q++) {
-        t->weight[q] = paper ? 1 : m->area[first + q];
+        t->weight[q] = paper ? 1 : m->area[q];
         PM_TRY(pm_map_point(old, r->from->s[k].phi, &t->old[3 * q], &work, &t->x[3 * q], NULL, NULL,
                             err));
     }
@@ -141,14 +92,16 @@ done:
     return status;
 }
 
-static enum pm_status fit(const struct rebuild *r, struct pm_surfaces *to,
-                          const struct pm_samples *m, ptrdiff_t k, struct pm_err *err)
+static enum pm_status fit(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
 {
     enum { SLIDES = 2 };
     enum pm_status status = PM_OK;
     const struct pm_surface *from = &r->from->s[k];
     const int paper = r->method[k] == SURFREMESH_PAPER;
-    struct pm_surface *f = &to->s[k];
+    struct pm_surface *f = &r->made[k];
+    ptrdiff_t offset[2] = {0, f->n};
+    const struct pm_surfaces alone = {.ns = 1, .s = f, .offset = offset};
+    struct pm_samples m = {0};
     struct pm_map *old = NULL, *map = NULL;
     struct target t = {0};
     struct pm_fitter *fitter = NULL;
@@ -160,7 +113,8 @@ static enum pm_status fit(const struct rebuild *r, struct pm_surfaces *to,
     PM_TRY(PM_NEW(fixed, 3 * f->n, err));
     for (ptrdiff_t i = 0; i < 3 * f->n; i++)
         fixed[i] = !f->free[i];
-    PM_TRY(aim(r, f, m, k, old, &t, err));
+    PM_TRY(pm_samples_new(&alone, HUGE_VAL, FIT_CUTS, &m, err));
+    PM_TRY(aim(r, &m, k, old, &t, err));
     const long iterations = r->o->iterations > 0 ? r->o->iterations : paper ? 1 : 20;
     const struct pm_fit job = {.nq = t.nq,
                                .S = t.S,
@@ -176,47 +130,59 @@ static enum pm_status fit(const struct rebuild *r, struct pm_surfaces *to,
 done:
     pm_map_free(old);
     pm_map_free(map);
+    pm_samples_release(&m);
     target_release(&t);
     pm_fitter_free(fitter);
     pm_free(fixed);
     return status;
 }
 
-/* The control points of an image are those of its source, one by one. */
-static void image(const struct rebuild *r, struct pm_surfaces *to, ptrdiff_t k)
+enum pm_status rebuild_surface(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
 {
-    const double *Q = to->pcase.symmetry.Q[r->by[k]], *t = to->pcase.symmetry.t[r->by[k]];
-    const double *from = to->s[r->source[k]].phi;
+    enum pm_status status;
+    const struct pm_surfaces *s = r->from;
 
-    for (ptrdiff_t i = 0; i < 3 * to->s[k].n; i++) {
-        const double *Qi = &Q[3 * (i % 3)], *x = &from[i / 3 * 3];
-        to->s[k].phi[i] = Qi[0] * x[0] + Qi[1] * x[1] + Qi[2] * x[2] + t[i % 3];
-    }
+    drop_made(r, k);
+    if (k == 0)
+        PM_TRY(pm_exterior_spread(&s->s[0], s->pcase.height, r->nu, r->nv, &r->made[0],
+                                  &r->carried[0], err));
+    else
+        PM_TRY(
+            pm_chamber_remesh(s, k, r->method[k], r->spacing[k], &r->made[k], &r->carried[k], err));
+    PM_TRY(fit(r, k, err));
+done:
+    return status;
 }
 
-enum pm_status rebuild_surfaces(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
+enum pm_status rebuild_join(const struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_samples m = {0};
+    const struct pm_surfaces *s = r->from;
+    const struct pm_symmetry *y = &s->pcase.symmetry;
     double *phi = NULL;
 
-    rebuild_release(r);
-    PM_TRY(reseed(r, to, err));
-    PM_TRY(pm_samples_new(to, HUGE_VAL, FIT_CUTS, &m, err));
+    pm_surfaces_release(to);
+    PM_TRY(pm_case_copy(&s->pcase, &to->pcase, err));
+    to->ns = s->ns;
+    PM_TRY(PM_NEW(to->s, to->ns, err));
+    PM_TRY(PM_NEW(to->offset, to->ns + 1, err));
+    memcpy(to->reference_point, s->reference_point, sizeof to->reference_point);
     for (ptrdiff_t k = 0; k < to->ns; k++) {
-        r->blame = k;
-        if (r->redo[k] && r->source[k] == k)
-            PM_TRY(fit(r, to, &m, k, err));
-        else if (r->redo[k])
-            image(r, to, k);
+        const ptrdiff_t source = r->source[k];
+        if (r->redo[k] && source < k)
+            PM_TRY(pm_symmetry_image(y, r->by[k], &to->s[source], &to->s[k], err));
+        else
+            PM_TRY(pm_surface_copy(r->redo[k] ? &r->made[k] : &s->s[k], &to->s[k], err));
+        to->offset[k + 1] = to->offset[k] + to->s[k].n;
     }
-    r->blame = -1;
+    /* images of new control points agree to the rounding of the fit */
+    PM_TRY(pm_symmetry_find(to, 1e-6 * s->pcase.height, err));
+    PM_TRY(pm_symmetrise_reference(to, err));
     PM_TRY(PM_NEW(phi, 3 * to->offset[to->ns], err));
     pm_surfaces_gather(to, phi);
     pm_symmetrise_points(to, phi);
     pm_surfaces_scatter(to, phi);
 done:
-    pm_samples_release(&m);
     pm_free(phi);
     return status;
 }

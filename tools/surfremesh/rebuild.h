@@ -11,13 +11,14 @@ struct rebuild {
     int redo[PM_MAX_CHAMBERS + 1]; /* 1: the surface gets new control points; whole orbits */
     enum surfremesh_method method[PM_MAX_CHAMBERS + 1]; /* exterior: SURFREMESH_REMESH */
     ptrdiff_t source[PM_MAX_CHAMBERS + 1],
-        by[PM_MAX_CHAMBERS + 1];         /* the first surface of the orbit
-                                             and the operation from it */
-    double spacing[PM_MAX_CHAMBERS + 1]; /* of chambers [mm] */
-    ptrdiff_t nu, nv;                    /* of the exterior */
+        by[PM_MAX_CHAMBERS + 1];                 /* the first surface of the orbit
+                                                     and the operation from it */
+    double spacing[PM_MAX_CHAMBERS + 1];         /* of chambers [mm] */
+    ptrdiff_t nu, nv;                            /* of the exterior */
+    struct pm_surface made[PM_MAX_CHAMBERS + 1]; /* new ones, of the first of an orbit */
     /* parameters of the old surface at the new control points (n x 3), NULL where they are Phi */
     double *carried[PM_MAX_CHAMBERS + 1];
-    ptrdiff_t blame;        /* the surface that a refused result fails by, -1: no single one */
+    ptrdiff_t blame[2];     /* the surfaces that the joined result fails by, -1: any */
     struct pm_check before; /* of the old surfaces */
     struct surfremesh_report *report;
 };
@@ -29,18 +30,19 @@ void rebuild_release(struct rebuild *r);
  * 1. The exterior: the longest edge is above 2 times the mean, or the mean is off the start's by
  * more than 15 %. All chambers if the options name a spacing or a count. */
 enum pm_status rebuild_plan(struct rebuild *r, struct pm_err *err);
-/* The new surfaces, fitted and symmetric. */
-enum pm_status rebuild_surfaces(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err);
-/* Parameters of the old surface k where the samples of the new one lie, pm_samples_new with `cuts`
- * and no spacing: S (samples of k x 3). */
-void rebuild_carry(const struct rebuild *r, const struct pm_surface *to, ptrdiff_t k,
-                   ptrdiff_t cuts, double *S);
-/* Fills the report; its reason says what is not acceptable: distance above 0.3 mm either way,
- * volume off by more than 0.5 %, spacing or isotropy worse, a fold, a surface through itself, a
- * fault of pm_surfaces_measure, a wall thinner than wall_min that was not so before. The paper's
- * method drifts: its distance and volume are reported, not judged. */
-enum pm_status rebuild_judge(struct rebuild *r, const struct pm_surfaces *to, struct pm_err *err);
-/* Surface k lies too far off the old one, or its volume does, in the report. */
+/* Surface k, the first of its orbit, gets new control points, fitted to the old surface. */
+enum pm_status rebuild_surface(struct rebuild *r, ptrdiff_t k, struct pm_err *err);
+/* All surfaces together, the new ones where redo says so, with their images, symmetric. */
+enum pm_status rebuild_join(const struct rebuild *r, struct pm_surfaces *to, struct pm_err *err);
+/* Enters surface k, its images too, in the report; its reason says what is not acceptable: distance
+ * above 0.3 mm either way, volume off by more than 0.5 %, spacing worse, a fold, a surface through
+ * itself. The paper's method drifts: its distance and volume are reported, not judged. */
+enum pm_status rebuild_judge_surface(struct rebuild *r, ptrdiff_t k, struct pm_err *err);
+/* Does the new surface k lie too far off the old one, or its volume? */
 int rebuild_misses(const struct rebuild *r, ptrdiff_t k);
+/* The same for all together: a fault of pm_surfaces_measure, walls or caps thinner than allowed
+ * that were not so before; blame says by which surfaces. */
+enum pm_status rebuild_judge_robot(struct rebuild *r, const struct pm_surfaces *to,
+                                   struct pm_err *err);
 
 #endif

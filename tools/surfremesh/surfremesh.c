@@ -31,106 +31,189 @@ void surfremesh_report_release(struct surfremesh_report *r)
     memset(r, 0, sizeof *r);
 }
 
-static void keep(struct surfremesh_report *report, ptrdiff_t ns)
+/* The report on surface k, the first of its orbit, and its images as they were. */
+static void report_kept(struct rebuild *r, ptrdiff_t k)
 {
-    report->kept = 1;
-    for (ptrdiff_t k = 0; k < ns; k++) {
-        report->spacing_after[k] = report->spacing_before[k];
-        report->mean[k] = report->max[k] = 0;
-        report->volume_ratio[k] = 1;
+    struct surfremesh_report *p = r->report;
+
+    for (ptrdiff_t i = 0; i < r->from->ns; i++) {
+        if (r->source[i] != k)
+            continue;
+        r->redo[i] = 0;
+        p->spacing_after[i] = p->spacing_before[i];
+        p->mean[i] = p->max[i] = 0;
+        p->volume_ratio[i] = 1;
     }
 }
 
-/* A surface whose result misses its old form is tried again with closer control points, unless the
- * options fix their number. Returns whether there is one. */
-static int refine(struct rebuild *r)
+/* Leaves it as it was, for the present reason. */
+static void keep(struct rebuild *r, ptrdiff_t k, char *why)
+{
+    memcpy(why, r->report->reason, sizeof r->report->reason);
+    pm_warn("surface %td kept: %s", k, why);
+    report_kept(r, k);
+}
+
+static int any_left(const struct rebuild *r)
 {
     int any = 0;
 
-    if (r->redo[0] && rebuild_misses(r, 0) && r->from->s[0].spacing[0] > 0) {
+    for (ptrdiff_t k = 0; k < r->from->ns; k++)
+        any |= r->redo[k];
+    return any;
+}
+
+static int is_asked(const struct rebuild *r)
+{
+    return r->o->spacing > 0 || r->o->points > 0;
+}
+
+/* Closer control points for surface k, unless the options or the surface fix their number. */
+static int refine(struct rebuild *r, ptrdiff_t k)
+{
+    if (k == 0 ? r->from->s[0].spacing[0] <= 0 : is_asked(r))
+        return 0;
+    if (k == 0) {
         r->nu += 12;
         r->nv += r->nv / 7;
-        any = 1;
     }
-    for (ptrdiff_t k = 1; k < r->from->ns; k++)
-        if (r->redo[k] && rebuild_misses(r, k) && r->o->spacing <= 0 && r->o->points <= 0) {
-            r->spacing[k] *= 0.85;
-            any = 1;
-        }
-    return any;
+    r->spacing[k] *= 0.85;
+    return 1;
 }
 
-/* Leaves the surface to blame, with its images, as it was; the others may still be acceptable.
- * Returns whether any is left. */
-static int drop(struct rebuild *r)
+/* A mesher or a map that fails refuses the result, PM_SYSTEM ends the tool. */
+static enum pm_status refuse(struct rebuild *r, enum pm_status status, const struct pm_err *why,
+                             struct pm_err *err)
 {
-    int any = 0;
-
-    if (r->blame < 0)
-        return 0;
-    for (ptrdiff_t k = 0; k < r->from->ns; k++) {
-        if (r->source[k] == r->source[r->blame])
-            r->redo[k] = 0;
-        any |= r->redo[k];
-    }
-    return any;
+    if (status == PM_SYSTEM)
+        *err = *why;
+    else if (status != PM_OK)
+        snprintf(r->report->reason, sizeof r->report->reason, "%.255s", why->text);
+    return status == PM_SYSTEM ? status : PM_OK;
 }
 
-/* One attempt; a mesher or a map that fails refuses the result, PM_SYSTEM ends the tool. */
-static enum pm_status attempt(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
-{
-    struct surfremesh_report *report = r->report;
-    struct pm_err why = {0};
-    enum pm_status status;
-
-    pm_surfaces_release(to);
-    report->reason[0] = '\0';
-    status = rebuild_surfaces(r, to, &why);
-    if (status == PM_OK)
-        status = rebuild_judge(r, to, &why);
-    if (status == PM_SYSTEM) {
-        *err = why;
-        return status;
-    }
-    if (status != PM_OK)
-        snprintf(report->reason, sizeof report->reason, "%.255s", why.text);
-    for (ptrdiff_t k = 0; status == PM_OK && k < to->ns; k++)
-        if (r->redo[k])
-            pm_log(1,
-                   "surface %td: %td control points for %td, spacing variation %.3f -> %.3f, "
-                   "distance mean %.4f "
-                   "max %.4f mm, volume %+.3f %%",
-                   k, to->s[k].n, r->from->s[k].n, report->spacing_before[k],
-                   report->spacing_after[k], report->mean[k], report->max[k],
-                   100 * (report->volume_ratio[k] - 1));
-    return PM_OK;
-}
-
-/* Attempts with closer control points, then without the surface that fails. */
-static enum pm_status attempts(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
+/* Surface k, the first of its orbit; tried again with closer control points where it misses its old
+ * form. The reason says why it is not acceptable. */
+static enum pm_status renew(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
 {
     enum { ATTEMPTS = 3 };
-    enum pm_status status = PM_OK;
-    struct surfremesh_report *report = r->report;
-    char dropped[sizeof report->reason] = "";
+    enum pm_status status;
+    const struct surfremesh_report *p = r->report;
 
-    for (int i = 0;; i++) {
-        PM_TRY(attempt(r, to, err));
-        report->refused = report->reason[0] != '\0';
-        if (!report->refused)
+    for (int i = 1;; i++) {
+        struct pm_err why = {0};
+        status = rebuild_surface(r, k, &why);
+        if (status == PM_OK)
+            status = rebuild_judge_surface(r, k, &why);
+        const int judged = status == PM_OK;
+        PM_TRY(refuse(r, status, &why, err));
+        if (judged)
+            pm_log(1,
+                   "surface %td: %td control points for %td, spacing variation %.3f -> %.3f, "
+                   "distance mean %.4f max %.4f mm, volume %+.3f %%",
+                   k, r->made[k].n, r->from->s[k].n, p->spacing_before[k], p->spacing_after[k],
+                   p->mean[k], p->max[k], 100 * (p->volume_ratio[k] - 1));
+        if (p->reason[0] == '\0' || !judged || i == ATTEMPTS || !rebuild_misses(r, k) ||
+            !refine(r, k))
             break;
-        if (i + 1 < ATTEMPTS && to->s != NULL && refine(r))
-            continue;
-        if (r->o->spacing > 0 || r->o->points > 0)
-            break;
-        memcpy(dropped, report->reason, sizeof dropped);
-        if (!drop(r))
-            break;
-        pm_warn("surface kept: %s", dropped);
-        i = -1;
     }
-    if (!report->refused)
-        memcpy(report->reason, dropped, sizeof dropped);
+done:
+    return status;
+}
+
+static enum pm_status join(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
+{
+    struct pm_err why = {0};
+    enum pm_status status = rebuild_join(r, to, &why);
+
+    r->blame[0] = r->blame[1] = -1;
+    if (status == PM_OK)
+        status = rebuild_judge_robot(r, to, &why);
+    return refuse(r, status, &why, err);
+}
+
+/* Is it to blame, and new? */
+static int is_suspect(const struct rebuild *r, ptrdiff_t k)
+{
+    return r->redo[k] && r->source[k] == k &&
+           (r->blame[0] < 0 || r->blame[0] == k || r->blame[1] == k);
+}
+
+/* Closer control points for what is to blame; *any: there are some. */
+static enum pm_status renew_suspects(struct rebuild *r, int *any, char *why, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+
+    *any = 0;
+    for (ptrdiff_t k = 0; k < r->from->ns; k++) {
+        if (!is_suspect(r, k) || !refine(r, k))
+            continue;
+        PM_TRY(renew(r, k, err));
+        if (r->report->reason[0] != '\0')
+            keep(r, k, why);
+        *any = 1;
+    }
+done:
+    return status;
+}
+
+/* The surface that is kept for the others: of those to blame the one furthest off. */
+static ptrdiff_t worst_suspect(const struct rebuild *r)
+{
+    ptrdiff_t worst = -1;
+
+    for (ptrdiff_t k = 0; k < r->from->ns; k++)
+        if (is_suspect(r, k) && (worst < 0 || r->report->max[k] > r->report->max[worst]))
+            worst = k;
+    return worst;
+}
+
+/* All that can be accepted together, after one more attempt with closer control points; why: of the
+ * last surface that is kept for the others. */
+static enum pm_status reconcile(struct rebuild *r, struct pm_surfaces *to, char *why,
+                                struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+
+    for (int tried = is_asked(r), any; any_left(r); tried = 1) {
+        PM_TRY(join(r, to, err));
+        if (r->report->reason[0] == '\0' || is_asked(r))
+            break;
+        if (!tried) {
+            PM_TRY(renew_suspects(r, &any, why, err));
+            if (any)
+                continue;
+        }
+        const ptrdiff_t k = worst_suspect(r);
+        if (k < 0)
+            break;
+        keep(r, k, why);
+    }
+done:
+    return status;
+}
+
+/* Every orbit by itself, then together. */
+static enum pm_status renew_all(struct rebuild *r, struct pm_surfaces *to, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct surfremesh_report *p = r->report;
+    char why[sizeof p->reason] = "";
+
+    for (ptrdiff_t k = 0; k < r->from->ns; k++) {
+        if (!r->redo[k] || r->source[k] < k)
+            continue;
+        PM_TRY(renew(r, k, err));
+        p->refused = p->reason[0] != '\0';
+        if (p->refused && is_asked(r))
+            goto done;
+        if (p->refused)
+            keep(r, k, why);
+    }
+    PM_TRY(reconcile(r, to, why, err));
+    p->refused = !any_left(r) || p->reason[0] != '\0';
+    if (why[0] != '\0')
+        memcpy(p->reason, why, sizeof why);
 done:
     return status;
 }
@@ -141,21 +224,25 @@ enum pm_status pm_surfremesh(const struct pm_surfaces *from, const struct surfre
 {
     enum pm_status status = PM_OK;
     struct rebuild r = {.from = from, .o = o, .report = report};
-    int any = 0;
 
     memset(to, 0, sizeof *to);
     PM_TRY(rebuild_plan(&r, err));
+    const int any = any_left(&r);
     for (ptrdiff_t k = 0; k < from->ns; k++)
-        any |= r.redo[k];
+        if (!r.redo[k] && r.source[k] == k)
+            report_kept(&r, k);
     if (any) {
         PM_TRY(pm_surfaces_measure(from, &r.before, err));
-        PM_TRY(attempts(&r, to, err));
+        PM_TRY(renew_all(&r, to, err));
     } else {
         pm_log(1, "control points are even, nothing to do");
     }
-    if (!any || report->refused) {
+    report->kept = !any || report->refused;
+    if (report->kept) {
         pm_surfaces_release(to);
-        keep(report, from->ns);
+        for (ptrdiff_t k = 0; k < from->ns; k++)
+            if (r.source[k] == k)
+                report_kept(&r, k);
     }
 done:
     rebuild_release(&r);
