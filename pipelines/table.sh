@@ -30,6 +30,7 @@ dense() {
 title() {
     local case=$1/workspace/case.ini
     [ ! -e "$1/history.tsv" ] || case=$1/case.ini
+    [ -r "$case" ] || { echo "table: '$1' has no '$case', expected what make optimize or make workspace leave" >&2; exit 2; }
     shown "$1" | awk -F '[ =]+' 'NR == FNR { if ($1 == "name") name = $2; if ($1 == "measure") own = $2; next } { measure = $1 }
         END { print name (measure != "" && measure != own ? " " measure : "") }' "$case" -
 }

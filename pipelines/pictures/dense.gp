@@ -27,6 +27,8 @@ if (ARG2 eq '2T') {
               ARG1 using 1:2:3:4 with lines lw 4 lc palette
     } else {
         if (ARG2 eq '1R2T') { set view noequal }
+        stats ARG1 using 3 name 'Z' nooutput
+        if (ARG2 ne '1R2T') { set ztics (sprintf('%.3g', Z_min) Z_min, sprintf('%.3g', Z_max) Z_max) }
         set xlabel 'first dof'
         set ylabel 'second dof'
         set zlabel 'third dof'
