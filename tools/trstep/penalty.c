@@ -9,6 +9,8 @@
 #include "tools/trstep/feet.h"
 
 static const double FOLD_SHARE = 0.2;
+/* Rows of four, the last a dummy, are one vector each: the walls are most of the work. */
+enum { WIDE = 4 };
 
 static double square(double x)
 {
@@ -74,6 +76,8 @@ enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struc
     PM_TRY(PM_NEW(p->bend, n, err));
     PM_TRY(PM_NEW(p->bound, 3 * n, err));
     PM_TRY(PM_NEW(p->wall, 1, err));
+    PM_TRY(PM_NEW(p->places, WIDE * s->offset[s->ns], err));
+    PM_TRY(PM_NEW(p->pull, WIDE * s->offset[s->ns], err));
     for (ptrdiff_t k = 0; k < s->ns; k++)
         PM_TRY(pm_map_new(&s->s[k], &p->map[k], err));
     PM_TRY(PM_NEW(phi, 3 * s->offset[s->ns], err));
@@ -100,6 +104,8 @@ void penalty_release(struct penalty *p)
     pm_free(p->wall);
     pm_free(p->col);
     pm_free(p->weight);
+    pm_free(p->places);
+    pm_free(p->pull);
     *p = (struct penalty){0};
 }
 
@@ -113,11 +119,44 @@ static double enter(struct penalty_value *v, int kind, double share, double mult
     return share * t;
 }
 
-static void spread(const struct pm_samples *q, ptrdiff_t i, const double force[3], double *gradient)
+static void take_places(const struct penalty *p, const double *phi)
 {
-    for (ptrdiff_t w = q->ptr[i]; w < q->ptr[i + 1]; w++)
-        for (int j = 0; j < 3; j++)
-            gradient[3 * q->col[w] + j] += q->c[w] * force[j];
+    for (ptrdiff_t m = 0; m < p->s->offset[p->s->ns]; m++)
+        memcpy(&p->places[WIDE * m], &phi[3 * m], 3 * sizeof *phi);
+}
+
+/* x = sum c phi of n control points. */
+static inline void gather(ptrdiff_t n, const int32_t *col, const double *c, const double *places,
+                          double x[WIDE])
+{
+    double sum[WIDE] = {0};
+    for (ptrdiff_t w = 0; w < n; w++)
+        for (int j = 0; j < WIDE; j++)
+            sum[j] += c[w] * places[WIDE * (ptrdiff_t)col[w] + j];
+    memcpy(x, sum, sizeof sum);
+}
+
+/* pull += c force */
+static inline void spread(ptrdiff_t n, const int32_t *col, const double *c,
+                          const double force[WIDE], double *pull)
+{
+    for (ptrdiff_t w = 0; w < n; w++)
+        for (int j = 0; j < WIDE; j++)
+            pull[WIDE * (ptrdiff_t)col[w] + j] += c[w] * force[j];
+}
+
+static void spread_sample(const struct penalty *p, ptrdiff_t i, const double force[WIDE])
+{
+    const struct pm_samples *q = &p->samples;
+    const ptrdiff_t k = q->ptr[i];
+    spread(q->ptr[i + 1] - k, q->col + k, q->c + k, force, p->pull);
+}
+
+static void place_of(const struct penalty *p, ptrdiff_t i, double x[WIDE])
+{
+    const struct pm_samples *q = &p->samples;
+    const ptrdiff_t k = q->ptr[i];
+    gather(q->ptr[i + 1] - k, q->col + k, q->c + k, p->places, x);
 }
 
 static void add_curvature(const struct penalty *p, const double *phi, double rho, double *gradient,
@@ -149,46 +188,43 @@ static void add_curvature(const struct penalty *p, const double *phi, double rho
 }
 
 /* r_q - r* along m [mm]. */
-static double gap(const struct penalty *p, const struct penalty_wall *t, const double x[3],
-                  const double *phi)
+static double gap(const struct penalty *p, const struct penalty_wall *t, const double x[WIDE])
 {
-    double e = dot(x, t->m);
-    for (ptrdiff_t w = t->first; w < t[1].first; w++)
-        e -= p->weight[w] * dot(&phi[3 * p->col[w]], t->m);
-    return e;
+    const ptrdiff_t k = t->first;
+    double r[WIDE];
+    gather(t[1].first - k, p->col + k, p->weight + k, p->places, r);
+    return (x[0] - r[0]) * t->m[0] + (x[1] - r[1]) * t->m[1] + (x[2] - r[2]) * t->m[2];
 }
 
-static void add_walls(const struct penalty *p, const double *phi, double rho, double *gradient,
-                      struct penalty_value *v)
+static void add_walls(const struct penalty *p, double rho, int pulls, struct penalty_value *v)
 {
-    double x[3] = {0};
+    double x[WIDE] = {0};
 
     for (ptrdiff_t k = 0; k < p->nwall; k++) {
         const struct penalty_wall *t = &p->wall[k];
         if (k == 0 || t[-1].i != t->i)
-            pm_samples_at(&p->samples, t->i, phi, x, NULL, NULL);
-        const double g = 1 - gap(p, t, x, phi) / t->limit;
+            place_of(p, t->i, x);
+        const double g = 1 - gap(p, t, x) / t->limit;
         v->worst[1] = fmax(v->worst[1], g);
         const double f = enter(v, 1, p->share[t->i], t->multiplier, rho, g) / t->limit;
-        if (gradient == NULL || !(f > 0))
+        if (!pulls || !(f > 0))
             continue;
-        spread(&p->samples, t->i, (double[]){-f * t->m[0], -f * t->m[1], -f * t->m[2]}, gradient);
-        for (ptrdiff_t w = t->first; w < t[1].first; w++)
-            for (int j = 0; j < 3; j++)
-                gradient[3 * p->col[w] + j] += f * p->weight[w] * t->m[j];
+        const double force[WIDE] = {f * t->m[0], f * t->m[1], f * t->m[2]};
+        const double back[WIDE] = {-force[0], -force[1], -force[2]};
+        spread_sample(p, t->i, back);
+        spread(t[1].first - t->first, p->col + t->first, p->weight + t->first, force, p->pull);
     }
 }
 
-static void add_bounds(const struct penalty *p, const double *phi, double rho, double *gradient,
-                       struct penalty_value *v)
+static void add_bounds(const struct penalty *p, double rho, int pulls, struct penalty_value *v)
 {
     const double d = p->c->wall_min;
 
     for (ptrdiff_t i = 0; i < p->samples.n; i++) {
-        double x[3], force[3] = {0}, n[3];
+        double x[WIDE], force[WIDE] = {0}, n[3];
         if (!(p->flag[i] & FEET_BOUND))
             continue;
-        pm_samples_at(&p->samples, i, phi, x, NULL, NULL);
+        place_of(p, i, x);
         for (int k = 0; k < 3; k++) {
             const double g = pm_domain_depth(p->c, p->samples.surface[i] > 0, k, x, n) / d;
             if (!(g > -HUGE_VAL))
@@ -198,26 +234,33 @@ static void add_bounds(const struct penalty *p, const double *phi, double rho, d
             for (int j = 0; j < 3; j++)
                 force[j] += f * n[j];
         }
-        if (gradient != NULL)
-            spread(&p->samples, i, force, gradient);
+        if (pulls)
+            spread_sample(p, i, force);
     }
 }
 
 void penalty_at(const struct penalty *p, const double *phi, const double rho[2], double *gradient,
                 struct penalty_value *v)
 {
+    const ptrdiff_t N = p->s->offset[p->s->ns];
+
     *v = (struct penalty_value){0};
     add_curvature(p, phi, rho[0], gradient, v);
-    add_walls(p, phi, rho[1], gradient, v);
-    add_bounds(p, phi, rho[1], gradient, v);
+    take_places(p, phi);
+    memset(p->pull, 0, (size_t)(WIDE * N) * sizeof *p->pull);
+    add_walls(p, rho[1], gradient != NULL, v);
+    add_bounds(p, rho[1], gradient != NULL, v);
+    for (ptrdiff_t k = 0; k < 3 * N && gradient != NULL; k++)
+        gradient[k] += p->pull[k / 3 * WIDE + k % 3];
 }
 
 void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
 {
     const struct pm_samples *q = &p->samples;
-    double x[3], n[3], r_a[6], r_ab[9];
+    double x[WIDE], n[3], r_a[6], r_ab[9];
     struct pm_curvature c;
 
+    take_places(p, phi);
     for (ptrdiff_t i = 0; i < q->n; i++) {
         if (p->flag[i] & FEET_BEND) {
             pm_samples_at(q, i, phi, NULL, r_a, r_ab);
@@ -226,7 +269,7 @@ void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
         }
         if (!(p->flag[i] & FEET_BOUND))
             continue;
-        pm_samples_at(q, i, phi, x, NULL, NULL);
+        place_of(p, i, x);
         for (int k = 0; k < 3; k++) {
             const double g = pm_domain_depth(p->c, q->surface[i] > 0, k, x, n) / p->c->wall_min;
             p->bound[3 * i + k] = fmax(p->bound[3 * i + k] + rho[1] * g, 0);
@@ -234,8 +277,8 @@ void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
     }
     for (ptrdiff_t k = 0; k < p->nwall; k++) {
         struct penalty_wall *t = &p->wall[k];
-        pm_samples_at(q, t->i, phi, x, NULL, NULL);
-        t->multiplier = fmax(t->multiplier + rho[1] * (1 - gap(p, t, x, phi) / t->limit), 0);
+        place_of(p, t->i, x);
+        t->multiplier = fmax(t->multiplier + rho[1] * (1 - gap(p, t, x) / t->limit), 0);
     }
 }
 

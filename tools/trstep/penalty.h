@@ -47,7 +47,8 @@ struct penalty {
     struct penalty_wall *wall; /* (nwall + 1): an end behind the last */
     int32_t *col;              /* weights of the feet: global control point, weight (nw) */
     double *weight;
-    double cover; /* samples lie closer than this to every point of a surface [mm] */
+    double *places, *pull; /* scratch: control points, gradient (N x 4) */
+    double cover;          /* samples lie closer than this to every point of a surface [mm] */
 };
 
 struct penalty_value {
