@@ -96,8 +96,8 @@ $D/step.h5: $(SURF) $D/work.h5
 	$(STAGE) trstep $(BIN)/trstep $(SURF) $D/work.h5 $$sens $(PREVIOUS_STEP) -o $@
 
 # What only reports and pictures need: the points of the volume form, the measure by both forms, the corners of the
-# actuation square (two chambers).
-VOLUMES := $(patsubst %,$D/volume-%.h5,$(shell seq -f %02g 0 $$(($(shell $(BIN)/wsint --points --form volume $(RUN)/case.ini | awk 'NR > 1' | wc -l) - 1))))
+# actuation box.
+VOLUMES := $(patsubst %,$D/volume-%.h5,$(shell seq -f %02g 0 $$(($(shell $(BIN)/wsint --points --form volume $(RUN)/case.ini | awk 'NR > 1 && $$3 > 0' | wc -l) - 1))))
 $(VOLUMES): $D/volume-%.h5: $D/mesh.h5 | $(STATES)
 	@$(STAGE) 'volume $*' $(LAUNCH) $(BIN)/fesolve --form volume --load $(shell printf %d $$((10#$*))) $(addprefix --guess ,$(STATES)) $< -o $@
 $D/both.h5: $(STATES) $(VOLUMES)
@@ -105,7 +105,7 @@ $D/both.h5: $(STATES) $(VOLUMES)
 comma := ,
 PMIN := $(or $(call setting,pmin),0)
 PMAX := $(call setting,pmax)
-CORNERS := $(patsubst %,$D/corner-%.h5,0-0 1-0 1-1)
+CORNERS := $(patsubst %,$D/corner-%.h5,0-0 1-0 1-1 0-0-0 1-0-0 1-1-1 0-0-0-0-0-0 1-0-0-0-0-0 1-1-1-1-1-1)
 $(CORNERS): $D/corner-%.h5: $D/mesh.h5 | $(STATES)
 	@$(STAGE) 'corner $*' $(LAUNCH) $(BIN)/fesolve $(addprefix --guess ,$(STATES)) $< -o $@ \
 		--pressure $(subst a,$(PMIN),$(subst b,$(PMAX),$(subst 0,a,$(subst 1,b,$(subst -,$(comma),$*)))))

@@ -5,3 +5,6 @@ pictures: $(PLOTTERS) ## draw RUN/pictures/*.png of a run: RUN=run/NAME
 	+@BIN='$(BIN)' MAKE='$(MAKE)' pipelines/pictures.sh '$(RUN)'
 report: $(PLOTTERS) ## print the history and the first and best measure by both forms: RUN=run/NAME
 	+@BIN='$(BIN)' MAKE='$(MAKE)' pipelines/report.sh '$(RUN)'
+.PHONY: progress
+progress: ## measures of runs against iterations and time: RUNS='run/A run/B' [OUT=run/progress]
+	@pipelines/progress.sh '$(or $(OUT),run/progress)' $(RUNS)

@@ -23,19 +23,21 @@ plot convergence
 "$BIN/pmplot" section --accepted "$run/$last/step.h5" >"$data/section-after"
 plot shape
 
-# The rest is for two chambers: the corners of the actuation square.
+# Corners of the actuation box: none, the first chamber, all.
 chambers=$("$BIN/wsint" --points "$run/case.ini" | awk -F '\t' 'NR == 1 { n = NF - 5 } END { print n }')
-if [ "$chambers" -ne 2 ]; then
-    exit 0
-fi
+none=$(printf -- '-0%.0s' $(seq "$chambers"))
+none=${none:1} one=1${none:1} all=${none//0/1}
+"$MAKE" --no-print-directory RUN="$run" ITER="$last" "$run/$last/corner-$one.h5" "$run/$last/corner-$all.h5" || exit
+"$BIN/pmplot" deformed "$run/$last/corner-$one.h5" >"$data/deformed-one"
+"$BIN/pmplot" deformed "$run/$last/corner-$all.h5" >"$data/deformed-all"
+plot deformed
+
+# The outline of a planar workspace.
+[ "$chambers" -eq 2 ] || exit 0
 for iteration in it000 "$last"; do
     d=$run/$iteration
-    "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$d/corner-0-0.h5" "$d/corner-1-0.h5" "$d/corner-1-1.h5" || exit
+    "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$d/corner-$none.h5" "$d/corner-$one.h5" "$d/corner-$all.h5" || exit
 done
-for load in 1-0 1-1; do
-    "$BIN/pmplot" deformed "$run/$last/corner-$load.h5" >"$data/deformed-$load"
-done
-plot deformed
 "$BIN/pmplot" workspace "$run"/it000/state-*.h5 "$run"/it000/corner-*.h5 >"$data/workspace-before"
 "$BIN/pmplot" workspace "$run/$last"/state-*.h5 "$run/$last"/corner-*.h5 >"$data/workspace-after"
 plot workspace

@@ -18,7 +18,8 @@ static inline enum pm_status actuated_case(struct pm_case *c, const char *chambe
     snprintf(
         text, sizeof text,
         "[case]\nname = test\n[material]\nmu = 0.5\n[body]\nheight = 100\nwall = 3\n%s[symmetry]\n"
-        "group = %s\n[actuation]\npmin = 0\npmax = 0.12\npoints = %d\n[workspace]\nmeasure = %s\n",
+        "group = %s\n[actuation]\npmin = 0\npmax = 0.12\npoints = %d\n[workspace]\nmeasure = %s\n"
+        "[constraints]\namplification_max = 0\n",
         chambers, group, points, measure);
     return pm_case_parse(text, "test", c, err);
 }

@@ -193,6 +193,15 @@ static struct pm_load make_load(const struct pm_case *c, const struct point *q, 
     return l;
 }
 
+static struct pm_load guard(const struct pm_case *c, enum pm_form form)
+{
+    struct pm_load l = {.face = form == PM_FORM_BOUNDARY ? 0 : -1, .sign = 1, .multiplicity = 1};
+
+    for (ptrdiff_t r = 0; r < c->nchambers; r++)
+        l.p[r] = c->pmax;
+    return l;
+}
+
 enum pm_status pm_load_set(const struct pm_case *c, enum pm_form form, struct pm_load **loads,
                            ptrdiff_t *n, struct pm_err *err)
 {
@@ -213,13 +222,15 @@ enum pm_status pm_load_set(const struct pm_case *c, enum pm_form form, struct pm
     if (rule == NULL)
         PM_TRY(pm_fail(err, PM_SYSTEM, "out of memory"));
     PM_TRY(PM_NEW(seen, size, err));
-    PM_TRY(PM_NEW(set, size, err));
+    PM_TRY(PM_NEW(set, size + 1, err));
     for (ptrdiff_t i = 0; i < size; i++) {
         if (seen[i])
             continue;
         const struct point q = full_point(c, form, i);
         set[count++] = make_load(c, &q, take_orbit(c, form, i, seen), rule);
     }
+    if (c->amplification_max > 0 && form == c->form)
+        set[count++] = guard(c, form);
     *loads = set;
     *n = count;
     set = NULL;

@@ -11,7 +11,10 @@
  * base z = 0 onto itself) and the integrand is even under it: det(Qh restricted to the measure's
  * DoFs) det(Pi) = +1, Qh = diag(Q, det(Q) Q), Pi its chamber permutation. An odd operation makes
  * the whole measure vanish on symmetric designs; it is left out, the remaining ones are used. The
- * manifold measure is even under all. A weight must be kept, too. c->full_set: none is used. */
+ * manifold measure is even under all. A weight must be kept, too. c->full_set: none is used.
+ *
+ * The form of the case has a guard as its last point where amplification_max is set: all pressures
+ * at pmax, without weight. There a robot loses its stability first, and no other point sees it. */
 #ifndef PM_LOADS_H
 #define PM_LOADS_H
 
@@ -23,7 +26,8 @@ struct pm_load {
                  edge); -1 in the volume form */
     int sign; /* boundary form: +1 on p_r = pmax, -1 on p_r = pmin (2R: +1 where the path runs with
                  rising pressure); volume form: +1 */
-    double weight; /* tau = multiplicity * quadrature weight [(p/mu)^(n-1) or (p/mu)^n, 2R: p/mu] */
+    double weight; /* tau = multiplicity * quadrature weight [(p/mu)^(n-1) or (p/mu)^n, 2R: p/mu];
+                      0: the guard */
     int multiplicity; /* points of the full set that this one stands for */
 };
 

@@ -309,7 +309,7 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .mesh_size = 3,
                                       .wall_min = 2.5,
                                       .curvature_max = 1,
-                                      .amplification_max = 2,
+                                      .amplification_max = 1.5,
                                       .cap_min = 3,
                                       .domain_radius = NAN,
                                       .domain_half = {NAN, NAN},

@@ -10,7 +10,6 @@ set grid lc rgb '#dddddd'
 set border 3
 set tics nomirror
 set xrange [-0.3:*]
-set xtics 1
 set format x ''
 set key top left opaque
 set yrange [0:*]

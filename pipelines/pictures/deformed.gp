@@ -2,8 +2,8 @@
 # Arguments: folder of tables, picture.
 set terminal pngcairo size 1300,850 font 'sans,12' background '#ffffff'
 set output ARG2
-one = ARG1 . '/deformed-1-0'
-both = ARG1 . '/deformed-1-1'
+one = ARG1 . '/deformed-one'
+both = ARG1 . '/deformed-all'
 stats one using 1:3 nooutput name 'A'
 stats one using 4:2 nooutput name 'U'
 stats both using 1:3 nooutput name 'B'
@@ -33,7 +33,7 @@ set lmargin at screen 0.02
 set rmargin at screen 0.46
 splot one using 1:2:($6 == 0 ? $3 : NaN):(colour($4, $5)) with pm3d fc rgb variable
 unset label 1
-set label 2 'both chambers at p_{max}' at screen 0.67,0.95 center font ',16'
+set label 2 'all chambers at p_{max}' at screen 0.67,0.95 center font ',16'
 set lmargin at screen 0.46
 set rmargin at screen 0.9
 splot both using 1:2:($6 == 0 ? $3 : NaN):(colour($4, $5)) with pm3d fc rgb variable

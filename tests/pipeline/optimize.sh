@@ -84,7 +84,7 @@ refused 3 "a double point" "are states at the same point 0" "$BIN/wsint" "${stat
 refused 3 "another design" "its mesh differs" "$BIN/wsint" "${states[@]:0:3}" "$work/first/it001/state-03.h5" -o "$work/output/x.h5"
 refused 3 "a form without states" "no state at a point of the volume form" "$BIN/wsint" --form volume "${states[@]}" -o "$work/output/x.h5"
 refused 3 "a measure of three chambers" "measure 3T got 2 chambers, expected 3" "$BIN/wsint" --measure 3T "${states[@]}" -o "$work/output/x.h5"
-refused 3 "a free load" "at no Gauss point" "$BIN/wsint" "${states[@]}" "$work/first/it000/corner-1-1.h5" -o "$work/output/x.h5"
+refused 3 "a free load" "at no Gauss point" "$BIN/wsint" "${states[@]}" "$work/first/it000/corner-1-0.h5" -o "$work/output/x.h5"
 
 # A design starts another run on another mesh, whose first measure is the last one there up to what a coarse mesh is worth.
 check "a design is kept" make -s B="$BUILD" design RUN="$work/first" NAME="$work/designs/tiny"

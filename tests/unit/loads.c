@@ -152,6 +152,33 @@ static void check_solid_angle(void)
     pm_case_release(&faces);
 }
 
+/* The form of the case ends with all pressures at pmax, without weight. */
+static void check_guard(void)
+{
+    struct pm_case c = {0};
+    struct pm_load *loads = NULL;
+    ptrdiff_t n = 0, without = 0;
+
+    if (actuated_case(&c, actuated_two, "mirror-x mirror-y", "2T", 2, &err) != PM_OK)
+        ok(0, "%s", err.text);
+    for (int f = 0; f < 2; f++) {
+        c.amplification_max = 0;
+        ok(pm_load_set(&c, (enum pm_form)f, &loads, &without, &err) == PM_OK, "%s form",
+           pm_form_name((enum pm_form)f));
+        pm_free(loads);
+        c.amplification_max = 2;
+        ok(pm_load_set(&c, (enum pm_form)f, &loads, &n, &err) == PM_OK &&
+               n == without + (f == PM_FORM_BOUNDARY),
+           "%td points, %td with the guard", without, n);
+        if (f == PM_FORM_BOUNDARY)
+            ok(loads[n - 1].weight == 0 && loads[n - 1].p[0] == c.pmax &&
+                   loads[n - 1].p[1] == c.pmax,
+               "all at pmax, without weight");
+        pm_free(loads);
+    }
+    pm_case_release(&c);
+}
+
 int main(void)
 {
     cJSON *json = reference_load("tests/data/gauss_sets.json");
@@ -186,5 +213,6 @@ int main(void)
     ok(pm_load_set(&c, PM_FORM_VOLUME, &loads, &n, &err) == PM_INPUT && loads == NULL,
        "a huge set is refused");
     pm_case_release(&c);
+    check_guard();
     return tap_done();
 }

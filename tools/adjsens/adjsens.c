@@ -147,6 +147,19 @@ done:
     return status;
 }
 
+/* A guard within its limit has no part in the objective. */
+static int without_weight(const struct adjsens_point *pt)
+{
+    const ptrdiff_t n = 6 * pt->state.mesh.nc;
+    for (ptrdiff_t i = 0; i < 6; i++)
+        if (pt->work.dw_dU[6 * pt->row + i] != 0)
+            return 0;
+    for (ptrdiff_t i = 0; i < n; i++)
+        if (pt->work.dw_dJ[n * pt->row + i] != 0)
+            return 0;
+    return 1;
+}
+
 static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens_point *pt,
                                     struct pm_sens *out, struct pm_err *err)
 {
@@ -156,8 +169,8 @@ static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens
     struct pm_objective w = {.V = {0}};
     ptrdiff_t nc = mesh->nc;
     double *D = NULL, D_ref[3];
-    PM_TRY(PM_NEW(D, 3 * pt->m->nn, err));
     PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
+    PM_TRY(PM_NEW(D, 3 * pt->m->nn, err));
     for (ptrdiff_t l = 0; l < 6; l++) {
         w.U[l] = pt->work.dw_dU[6 * pt->row + l];
         for (ptrdiff_t r = 0; r < nc; r++)
@@ -172,6 +185,34 @@ static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens
     PM_TRY(adjsens_pull_back(pt, o->form, D, out->gradient, err));
 done:
     pm_free(D);
+    return status;
+}
+
+static void tell_cost(const struct adjsens_point *pt, clock_t start)
+{
+    const struct pm_cost *c = &pt->m->cost;
+    double all = (double)(clock() - start) / CLOCKS_PER_SEC;
+    pm_log(1,
+           "%td unknowns, CPU s: ordering %.2f, assembly %.2f, factorisation %.2f, solves %.2f, "
+           "all %.2f; without ordering and assembly %.2f factorisations",
+           pt->m->nq, c->order, c->assemble, c->factor, c->solve, all,
+           (all - c->order - c->assemble) / c->factor);
+}
+
+/* Everything that needs the factor of the state. */
+static enum pm_status solve(const struct adjsens_opts *o, struct adjsens_point *pt, int weighted,
+                            struct pm_sens *out, struct pm_err *err)
+{
+    enum pm_status status;
+    const clock_t start = clock();
+    PM_TRY(restore(pt, err));
+    if (weighted)
+        PM_TRY(differentiate(o, pt, out, err));
+    PM_TRY(adjsens_entries(o, pt, out, err));
+    tell_cost(pt, start);
+    if (o->check)
+        PM_TRY(adjsens_check(o, pt, out->gradient, err));
+done:
     return status;
 }
 
@@ -221,17 +262,6 @@ done:
     return status;
 }
 
-static void tell_cost(const struct adjsens_point *pt, clock_t start)
-{
-    const struct pm_cost *c = &pt->m->cost;
-    double all = (double)(clock() - start) / CLOCKS_PER_SEC;
-    pm_log(1,
-           "%td unknowns, CPU s: ordering %.2f, assembly %.2f, factorisation %.2f, solves %.2f, "
-           "all %.2f; without ordering and assembly %.2f factorisations",
-           pt->m->nq, c->order, c->assemble, c->factor, c->solve, all,
-           (all - c->order - c->assemble) / c->factor);
-}
-
 enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common *common,
                            struct pm_err *err)
 {
@@ -241,14 +271,16 @@ enum pm_status adjsens_run(const struct adjsens_opts *o, const struct pm_common 
     struct pm_h5 *out = NULL;
     PM_TRY(check_usage(o, common, err));
     PM_TRY(load(o, common, &pt, err));
-    clock_t start = clock();
-    PM_TRY(restore(&pt, err));
-    if (common->noperands > 1)
-        PM_TRY(differentiate(o, &pt, &sens, err));
-    PM_TRY(adjsens_entries(o, &pt, &sens, err));
-    tell_cost(&pt, start);
-    if (o->check)
-        PM_TRY(adjsens_check(o, &pt, sens.gradient, err));
+    const int given = common->noperands > 1, weighted = given && !without_weight(&pt);
+    if (given && !weighted && o->check)
+        PM_TRY(pm_fail(err, PM_INPUT, "the objective does not depend on '%s': nothing to check",
+                       common->operands[0]));
+    if (given && !weighted)
+        PM_TRY(PM_NEW(sens.gradient, 3 * pt.state.mesh.N, err));
+    if (weighted || o->each || o->nodal)
+        PM_TRY(solve(o, &pt, weighted, &sens, err));
+    else
+        pm_log(1, "the objective does not depend on this point: its gradient is zero");
     sens.form = pt.state.form;
     sens.load = pt.state.load;
     sens.shape_form = o->form;

@@ -48,9 +48,13 @@ enum pm_status wsint_match(const struct pm_case *c, struct wsint_point *points, 
                                points[s->order[g]].path, points[i].path, g, pm_form_name(s->form)));
             s->order[g] = i;
             points[i].used = 1;
-            found++;
+            found += s->loads[g].weight != 0;
         }
         missing = s->order[g] < 0 && missing < 0 ? g : missing;
+    }
+    if (missing >= 0 && s->loads[missing].weight == 0) { /* the guard is not of the measure */
+        s->ng--;
+        missing = -1;
     }
     if (found == 0)
         s->ng = 0;
@@ -103,6 +107,8 @@ enum pm_status wsint_integrate(const struct pm_case *c, const struct wsint_point
         memcpy(work->pressure + g * nc, q->pressure, (size_t)nc * sizeof(double));
         memcpy(work->U + g * 6, q->U, sizeof q->U);
         memcpy(work->J + g * 6 * nc, q->J, (size_t)(6 * nc) * sizeof(double));
+        if (s->loads[g].weight == 0)
+            continue;
         PM_TRY(pm_measure_point(c, s->form, &s->loads[g], q->U, q->J, &work->w[g],
                                 work->dw_dU + 6 * g, work->dw_dJ + g * 6 * nc, err));
         work->w[g] *= s->loads[g].weight;
