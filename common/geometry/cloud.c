@@ -330,14 +330,20 @@ static void distances(const struct leaf *l, const struct pm_look *q, const doubl
         const double d[3] = {x[0] - l->x[0][k], x[1] - l->x[1][k], x[2] - l->x[2][k]};
         d2[k] = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
     }
-    for (int k = 0; k < WIDTH && q->side != 0; k++) {
-        double ahead = 0, back = 0;
-        for (int j = 0; j < 3; j++) {
+    if (q->side == 0)
+        return;
+    double ahead[WIDTH] = {0}, back[WIDTH] = {0};
+    const double c2 = q->cosine * q->cosine;
+    for (int j = 0; j < 3; j++)
+        for (int k = 0; k < WIDTH; k++) {
             const double d = q->side * (l->x[j][k] - x[j]);
-            ahead += normal[j] * d;
-            back -= l->normal[j][k] * d;
+            ahead[k] += normal[j] * d;
+            back[k] -= l->normal[j][k] * d;
         }
-        d2[k] = lesser(ahead, back) > q->cosine * sqrt(d2[k]) ? d2[k] : HUGE_VAL;
+    for (int k = 0; k < WIDTH; k++) { /* without branches: eight at a time */
+        const double least = lesser(ahead[k], back[k]);
+        const double shortest = greater(least, 0) * greater(least, 0);
+        d2[k] = shortest > c2 * d2[k] ? d2[k] : HUGE_VAL;
     }
 }
 
