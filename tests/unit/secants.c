@@ -45,7 +45,8 @@ static void check_model(const struct pm_surfaces *r)
     Ba = b + n;
     Bb = Ba + n;
     for (ptrdiff_t i = 0; i < n; i++) {
-        mass[i / 3] = 1 + 0.5 * sin((double)(i / 3));
+        const ptrdiff_t point = i / 3;
+        mass[point] = 1 + 0.5 * sin((double)point);
         diag[i] = cos((double)i);
         u[i] = sin(3 * (double)i);
         a[i] = cos(5 * (double)i);
