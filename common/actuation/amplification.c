@@ -24,7 +24,7 @@ static double size_of(const double scale[6], ptrdiff_t nc, const double *J)
     double sum = 0;
     for (ptrdiff_t i = 0; i < 6 * nc; i++)
         sum += scale[i / nc] * scale[i / nc] * J[i] * J[i];
-    return sum > 0 ? log(sum) / 2 : -INFINITY;
+    return sum > 0 ? log(sum) / 2 : -HUGE_VAL;
 }
 
 double pm_amplification(const struct pm_case *c, ptrdiff_t ng, const double *J, double *largest,
