@@ -4,6 +4,6 @@
 . tests/lib.sh
 
 expect 0 "${SHAPES:=200} random shapes" make -s -j2 B="$BUILD" DEPS=no shapes-results SHAPES="$SHAPES" SHAPES_RUN="$work/shapes"
-sed 's/^/# /' "$work/out"
+sed 's/^/# /' "$work/out" >&2 # prove shows it
 check "none without surfaces" test "$(grep -c 'no surfaces' "$work/shapes/shapes.tsv")" -eq 0
 finish

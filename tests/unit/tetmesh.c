@@ -1,5 +1,5 @@
 /* Kernels of tetmesh: Bernstein bound, mean ratio, edges and faces, two-face tetrahedra,
- * distances of walls. */
+ * distances of walls, better places. */
 #include <string.h>
 
 #include "common/base/memory.h"
@@ -8,6 +8,7 @@
 #include "tests/tap.h"
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/quality.h"
+#include "tools/tetmesh/relocate.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/walls.h"
 
@@ -204,6 +205,56 @@ static void check_walls(struct pm_err *err)
     pm_walls_release(&w);
 }
 
+/* Eight tetrahedra around the middle of an octahedron, which begins outside of it. */
+static void check_relocate(struct pm_err *err)
+{
+    enum { VERTICES = 7, NODES = 25, ELEMENTS = 8 };
+    double x[3 * NODES] = {1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0.2, 0.1, 1.3};
+    int32_t tet[10 * ELEMENTS], flat[4 * ELEMENTS], tri[6 * ELEMENTS], tag[ELEMENTS] = {0};
+    int32_t image[NODES];
+    struct pm_edges e = {0};
+    for (int k = 0; k < ELEMENTS; k++) {
+        const int32_t turned = (k & 1) ^ (k >> 1 & 1) ^ (k >> 2 & 1);
+        const int32_t a = k & 1, b = 2 + (k >> 1 & 1), c = 4 + (k >> 2 & 1);
+        const int32_t v[4] = {6, a, turned ? c : b, turned ? b : c};
+        memcpy(flat + 4 * k, v, sizeof v);
+    }
+    if (!ok(pm_edges_new(VERTICES, ELEMENTS, flat, &e, err) == PM_OK && e.n == NODES - VERTICES,
+            "an octahedron"))
+        return;
+    for (int k = 0; k < ELEMENTS; k++) {
+        const int32_t *v = flat + 4 * k;
+        memcpy(tet + 10 * k, v, 4 * sizeof *v);
+        for (int j = 0; j < 6; j++) {
+            const int32_t a = v[edge[j][0]], b = v[edge[j][1]];
+            const ptrdiff_t n = VERTICES + pm_edges_find(&e, a, b);
+            tet[10 * k + 4 + j] = (int32_t)n;
+            for (int i = 0; i < 3; i++)
+                x[3 * n + i] = (x[3 * a + i] + x[3 * b + i]) / 2;
+        }
+        const int32_t *t = tet + 10 * k, face[6] = {t[1], t[2], t[3], t[5], t[8], t[9]};
+        memcpy(tri + 6 * k, face, sizeof face);
+    }
+    for (int32_t a = 0; a < NODES; a++)
+        image[a] = a;
+    struct pm_mesh m = {.nn = NODES,
+                        .ne = ELEMENTS,
+                        .nf = ELEMENTS,
+                        .npe = 10,
+                        .npf = 6,
+                        .x = x,
+                        .tet = tet,
+                        .tri = tri,
+                        .tri_tag = tag};
+    const struct pm_relocate_opts o = {0.5, 0.5, {image, NULL}};
+    ptrdiff_t left = 1;
+    ok(pm_relocate(&o, &m, &left, err) == PM_OK && left == 0, "all are good");
+    ok(x[18] == 0.2, "a node on a mirror plane stays on it");
+    ok(fabs(x[19]) < 0.3 && fabs(x[20]) < 0.3, "and goes to the middle (%.2f, %.2f)", x[19], x[20]);
+    ok(x[0] == 1 && x[4] == 0 && x[14] == 1, "the outside stays");
+    pm_edges_release(&e);
+}
+
 int main(void)
 {
     struct pm_err err = {.status = PM_OK};
@@ -215,5 +266,6 @@ int main(void)
     check_split(4, &err);
     check_split(6, &err);
     check_walls(&err);
+    check_relocate(&err);
     return tap_done();
 }

@@ -226,3 +226,43 @@ done:
     pm_free(r.image);
     return status;
 }
+
+static int is_image(const struct pm_mesh *m, int axis, ptrdiff_t a, ptrdiff_t b)
+{
+    double off = 0, size = 1;
+    for (int i = 0; i < 3; i++) {
+        off = fmax(off, fabs(m->x[3 * a + i] - (i == axis ? -1 : 1) * m->x[3 * b + i]));
+        size = fmax(size, fabs(m->x[3 * a + i]));
+    }
+    return off < 1e-6 * size;
+}
+
+enum pm_status pm_mesh_images(const struct pm_mesh *m, unsigned planes, int32_t *image[2],
+                              struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    ptrdiff_t half = m->ne;
+    image[0] = image[1] = NULL;
+    for (int axis = 1; axis >= 0; axis--) { /* the last completion is the outermost */
+        if (!(planes >> axis & 1))
+            continue;
+        int good = half % 2 == 0;
+        half /= 2;
+        PM_TRY(PM_NEW(image[axis], m->nn, err));
+        for (ptrdiff_t first = 0; first + 2 * half <= m->ne && half > 0; first += 2 * half)
+            for (ptrdiff_t e = first; e < first + half; e++)
+                for (int k = 0; k < m->npe; k++) {
+                    const int32_t a = m->tet[m->npe * e + turned_tet[k]],
+                                  b = m->tet[m->npe * (e + half) + k];
+                    image[axis][a] = b;
+                    image[axis][b] = a;
+                    good &= is_image(m, axis, a, b);
+                }
+        if (!good)
+            PM_TRY(pm_fail(err, PM_INPUT,
+                           "the previous mesh is not its own image at the plane %c = 0",
+                           "xy"[axis]));
+    }
+done:
+    return status;
+}

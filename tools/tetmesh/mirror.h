@@ -27,5 +27,10 @@ unsigned pm_mirrors_of(const struct pm_mesh *m);
  * are shared, the others are images bit by bit. */
 enum pm_status pm_mesh_reflect(const struct pm_surfaces *s, const struct pm_mirrors *y, int axis,
                                struct pm_mesh *m, struct pm_err *err);
+/* Images of the nodes at each of the planes at which pm_mesh_reflect completed m, by the order of
+ * its elements: image[j] (nn), NULL for other planes; new memory (pm_free). PM_INPUT where m is not
+ * such a mesh. */
+enum pm_status pm_mesh_images(const struct pm_mesh *m, unsigned planes, int32_t *image[2],
+                              struct pm_err *err);
 
 #endif

@@ -11,6 +11,7 @@
 #include "tools/tetmesh/import_msh.h"
 #include "tools/tetmesh/mirror.h"
 #include "tools/tetmesh/redamp.h"
+#include "tools/tetmesh/relocate.h"
 #include "tools/tetmesh/shell.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/volume_gmsh.h"
@@ -22,6 +23,7 @@
 static const double min_scaled = 0.1, min_mean_ratio = 0.1;
 /* A mesh below min_scaled is damped to this, so that it bears a further step. */
 static const double redamp_scaled = 0.15;
+static const double relocated_mean_ratio = 0.15;
 
 /* What is asked of a new mesh. */
 struct sizes {
@@ -143,39 +145,94 @@ done:
     return status;
 }
 
-enum { WHY = 256 };
+struct quality {
+    double scaled, mean_ratio;
+};
 
-/* Moves the nodes of m to the new control points. *good = 0 where its elements do not bear that,
- * and why. */
-static enum pm_status morph(const struct pm_surfaces *s, struct pm_mesh *m, int *good, char *why,
-                            struct pm_err *err)
+static int bears(const struct pm_mesh *m, struct quality *q)
+{
+    pm_curve_quality(m, m->x, &q->scaled, &q->mean_ratio);
+    return q->scaled >= min_scaled && q->mean_ratio >= min_mean_ratio;
+}
+
+/* Moves the nodes of m to control points phi by the extension of its record. *good = 0 where its
+ * elements do not bear that. */
+static enum pm_status follow(const double *phi, struct pm_mesh *m, int *good, struct quality *q,
+                             ptrdiff_t *damped, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_extension *ext = NULL;
-    double *phi = NULL, scaled, mean_ratio;
+    PM_TRY(pm_extension_new(m, &ext, err));
+    PM_TRY(pm_mesh_morph(m, ext, phi, err));
+    *good = bears(m, q);
+    if (!*good && q->mean_ratio >= min_mean_ratio) {
+        PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, damped, err));
+        *good = bears(m, q);
+    }
+done:
+    pm_extension_free(ext);
+    return status;
+}
+
+/* The same from where the nodes are, inside as an elastic solid and with distorted elements
+ * relieved: x_generated, the record, begins anew there. The mesh is its own image at `planes`. */
+static enum pm_status renew(const double *phi, unsigned planes, struct pm_mesh *m, int *good,
+                            struct quality *q, ptrdiff_t *damped, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_extension *ext = NULL;
+    int32_t *image[2];
+    ptrdiff_t left;
+    PM_TRY(pm_mesh_images(m, planes, image, err));
+    const struct pm_relocate_opts o = {redamp_scaled, relocated_mean_ratio, {image[0], image[1]}};
+    memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
+    m->pcase.extension =
+        PM_EXTENSION_ELASTICITY; /* until the caller takes the case of the surfaces */
+    PM_TRY(pm_extension_new(m, &ext, err));
+    PM_TRY(pm_mesh_morph(m, ext, phi, err));
+    PM_TRY(pm_relocate(&o, m, &left, err));
+    *good = bears(m, q);
+    if (!*good) {
+        PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, damped, err));
+        PM_TRY(pm_relocate(&o, m, &left, err));
+        *good = bears(m, q);
+    }
+    memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
+done:
+    pm_free(image[0]);
+    pm_free(image[1]);
+    pm_extension_free(ext);
+    return status;
+}
+
+enum { WHY = 256 };
+
+/* Moves the nodes of m, its own image at `planes`, to the control points of s. *good = 0 where its
+ * elements do not bear that, and why. */
+static enum pm_status morph(const struct pm_surfaces *s, unsigned planes, int anew,
+                            struct pm_mesh *m, int *good, char *why, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double *phi = NULL;
+    struct quality q;
     ptrdiff_t damped = 0;
     PM_TRY(PM_NEW(phi, 3 * m->N, err));
     pm_surfaces_gather(s, phi);
-    PM_TRY(pm_extension_new(m, &ext, err));
-    PM_TRY(pm_mesh_morph(m, ext, phi, err));
-    pm_curve_quality(m, m->x, &scaled, &mean_ratio);
-    if (scaled < min_scaled && mean_ratio >= min_mean_ratio) {
-        PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, &damped, err));
-        pm_curve_quality(m, m->x, &scaled, &mean_ratio);
-    }
-    m->min_jacobian = scaled;
+    if (anew)
+        PM_TRY(renew(phi, planes, m, good, &q, &damped, err));
+    else
+        PM_TRY(follow(phi, m, good, &q, &damped, err));
+    m->min_jacobian = q.scaled;
     m->origin = PM_ORIGIN_MORPHED;
-    *good = scaled >= min_scaled && mean_ratio >= min_mean_ratio;
     pm_log(
         1,
-        "previous mesh morphed: scaled Jacobian %.3f, mean ratio %.3f, %td mid-side nodes damped",
-        scaled, mean_ratio, damped);
+        "previous mesh morphed%s: scaled Jacobian %.3f, mean ratio %.3f, %td mid-side nodes damped",
+        anew ? " from its present state" : "", q.scaled, q.mean_ratio, damped);
     if (!*good)
         snprintf(why, WHY,
                  "its elements do not bear the motion: scaled Jacobian %.3f, mean ratio %.3f",
-                 scaled, mean_ratio);
+                 q.scaled, q.mean_ratio);
 done:
-    pm_extension_free(ext);
     pm_free(phi);
     return status;
 }
@@ -204,10 +261,15 @@ static enum pm_status reuse(const char *path, const struct pm_surfaces *s,
         snprintf(why, WHY, "%.200s", broken.text);
     } else {
         PM_TRY(pm_weights_same(m, s, &same, err));
-        if (same)
-            PM_TRY(morph(s, m, good, why, err));
-        else
+        if (!same)
             snprintf(why, WHY, "it has another parametrisation");
+        for (int anew = 0; anew < 2 && same && !*good; anew++) {
+            if (anew) { /* damping has changed it */
+                pm_mesh_release(m);
+                PM_TRY(pm_mesh_load(path, 1, m, err));
+            }
+            PM_TRY(morph(s, y->planes & ~planes, anew, m, good, why, err));
+        }
     }
 done:
     if (status != PM_OK || !*good)
