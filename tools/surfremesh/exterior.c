@@ -22,11 +22,11 @@ enum pm_status pm_exterior_unevenness(const struct pm_surface *s, double *ratio,
     return status;
 }
 
-/* n times the ratio, whose distance from 1 counts for *off. */
+/* n times the ratio, at least n: what needed closer control points may need them again. */
 static ptrdiff_t count(ptrdiff_t n, double ratio, double *off)
 {
-    *off = fmax(*off, fabs(ratio - 1));
-    return (ptrdiff_t)round((double)n * ratio);
+    *off = fmax(*off, ratio - 1);
+    return (ptrdiff_t)round((double)n * fmax(ratio, 1));
 }
 
 enum pm_status pm_exterior_counts(const struct pm_surface *s, ptrdiff_t *nu, ptrdiff_t *nv,
@@ -42,13 +42,10 @@ enum pm_status pm_exterior_counts(const struct pm_surface *s, ptrdiff_t *nu, ptr
         return status;
     if (s->spacing[0] > 0 && s->nu % AROUND == 0) {
         *nu = AROUND * count(s->nu / AROUND, mean[0] / s->spacing[0], off);
-        *nu = *nu < AROUND ? AROUND : *nu;
         *off = *nu == s->nu ? 0 : *off; /* the next multiple is too far */
     }
-    if (s->spacing[1] > 0) {
+    if (s->spacing[1] > 0)
         *nv = count(s->nv - 3, mean[1] / s->spacing[1], off) + 3;
-        *nv = *nv < 8 ? 8 : *nv;
-    }
     return PM_OK;
 }
 

@@ -5,7 +5,7 @@
 #include "common/files/surfaces.h"
 
 /* Numbers of control points around (a multiple of 12) and along that bring the mean edges back to
- * s->spacing, or those there are where it is 0; *off: how far the edges are off it, as a part. */
+ * s->spacing, at least those there are; *off: how much longer the edges are, as a part. */
 enum pm_status pm_exterior_counts(const struct pm_surface *s, ptrdiff_t *nu, ptrdiff_t *nv,
                                   double *off, struct pm_err *err);
 /* How uneven the control points lie: longest over mean length of the grid's edges around and along,

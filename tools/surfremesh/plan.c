@@ -48,13 +48,13 @@ static enum pm_status plan_chamber(struct rebuild *r, ptrdiff_t k, struct pm_err
     if (r->o->points > 0)
         wanted = sqrt(now.area / (sqrt(0.75) * (double)r->o->points));
     crooked = now.median > MEDIAN_MAX || now.most > MOST_MAX;
-    r->spacing[k] = wanted;
+    const int asked = r->o->spacing > 0 || r->o->points > 0;
+    r->spacing[k] = asked ? wanted : fmin(wanted, now.mean);
     r->method[k] =
         r->o->method == SURFREMESH_REMESH && crooked ? SURFREMESH_CONFORMAL : r->o->method;
     r->report->spacing_before[k] = now.cv;
-    r->redo[k] = r->o->spacing > 0 || r->o->points > 0 || crooked || now.cv > CV_MAX ||
-                 now.longest > LONGEST_MAX || fabs(now.mean / wanted - 1) > SPACING_OFF ||
-                 least < 1;
+    r->redo[k] = asked || crooked || now.cv > CV_MAX || now.longest > LONGEST_MAX ||
+                 now.mean / wanted - 1 > SPACING_OFF || least < 1;
     pm_log(2,
            "surface %td: spacing %.3f mm for %.3f, variation %.3f, of nearest neighbours %.3f, "
            "longest %.2f, anisotropy %.2f (95 %%: %.2f), cover %.2f",

@@ -25,10 +25,11 @@ struct rebuild {
 
 void rebuild_release(struct rebuild *r);
 /* Which surfaces need it, and why (logged). A chamber: its spacing varies by more than 0.25, its
- * mean is off the wanted one by more than 15 %, its longest edge is above 2.5 times the mean, its
+ * mean is above the wanted one by more than 15 %, its longest edge is above 2.5 times the mean, its
  * map is anisotropic (median above 1.5 or 95 % above 3: a new parametrisation), its cover is below
- * 1. The exterior: the longest edge is above 2 times the mean, or the mean is off the start's by
- * more than 15 %. All chambers if the options name a spacing or a count. */
+ * 1. The exterior: the longest edge is above 2 times the mean, or the mean is above the
+ * start's by more than 15 %. None gets fewer control points than it has unless asked. All chambers
+ * if the options name a spacing or a count. */
 enum pm_status rebuild_plan(struct rebuild *r, struct pm_err *err);
 /* Surface k, the first of its orbit, gets new control points, fitted to the old surface. */
 enum pm_status rebuild_surface(struct rebuild *r, ptrdiff_t k, struct pm_err *err);

@@ -139,25 +139,7 @@ static int is_suspect(const struct rebuild *r, ptrdiff_t k)
            (r->blame[0] < 0 || r->blame[0] == k || r->blame[1] == k);
 }
 
-/* Closer control points for what is to blame; *any: there are some. */
-static enum pm_status renew_suspects(struct rebuild *r, int *any, char *why, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-
-    *any = 0;
-    for (ptrdiff_t k = 0; k < r->from->ns; k++) {
-        if (!is_suspect(r, k) || !refine(r, k))
-            continue;
-        PM_TRY(renew(r, k, err));
-        if (r->report->reason[0] != '\0')
-            keep(r, k, why);
-        *any = 1;
-    }
-done:
-    return status;
-}
-
-/* The surface that is kept for the others: of those to blame the one furthest off. */
+/* Of the surfaces to blame the one furthest off, -1: none. */
 static ptrdiff_t worst_suspect(const struct rebuild *r)
 {
     ptrdiff_t worst = -1;
@@ -168,26 +150,24 @@ static ptrdiff_t worst_suspect(const struct rebuild *r)
     return worst;
 }
 
-/* All that can be accepted together, after one more attempt with closer control points; why: of the
- * last surface that is kept for the others. */
+/* All that can be accepted together: the surface to blame gets closer control points, then it is
+ * kept, with why. */
 static enum pm_status reconcile(struct rebuild *r, struct pm_surfaces *to, char *why,
                                 struct pm_err *err)
 {
+    enum { RENEWALS = 4 };
     enum pm_status status = PM_OK;
 
-    for (int tried = is_asked(r), any; any_left(r); tried = 1) {
+    for (int i = 0; any_left(r); i++) {
         PM_TRY(join(r, to, err));
-        if (r->report->reason[0] == '\0' || is_asked(r))
-            break;
-        if (!tried) {
-            PM_TRY(renew_suspects(r, &any, why, err));
-            if (any)
-                continue;
-        }
         const ptrdiff_t k = worst_suspect(r);
-        if (k < 0)
+        if (r->report->reason[0] == '\0' || is_asked(r) || k < 0)
             break;
-        keep(r, k, why);
+        const int again = i < RENEWALS && refine(r, k);
+        if (again)
+            PM_TRY(renew(r, k, err));
+        if (!again || r->report->reason[0] != '\0')
+            keep(r, k, why);
     }
 done:
     return status;
