@@ -5,14 +5,15 @@ set -eu
 shopt -s inherit_errexit
 . pipelines/measure.sh
 
-# evaluate BASE MESH CASE [--full]: points and value of one Gauss set.
+# evaluate BASE MESH CASE [--full]: points (without the guard) and value of one Gauss set.
 evaluate() {
     local base=$1 mesh=$2 case=$3
     shift 3
-    "$BIN/wsint" --points "$@" "$case" | awk -F '\t' 'NR > 1 { for (i = 6; i <= NF; i++) printf "%s%s", $i, i < NF ? " " : "\n" }' >"$base.txt"
+    "$BIN/wsint" --points "$@" "$case" >"$base.set"
+    awk -F '\t' 'NR > 1 { for (i = 6; i <= NF; i++) printf "%s%s", $i, i < NF ? " " : "\n" }' "$base.set" >"$base.txt"
     "$BIN/fesolve" -q --path "$base.txt" "$mesh" -o "$base.h5"
     "$BIN/wsint" -q "$@" "$base.h5" -o "$base-work.h5"
-    printf '%d\t%s\n' "$(wc -l <"$base.txt")" "$(item /measure/value "$base-work.h5")"
+    printf '%d\t%s\n' "$(awk -F '\t' 'NR > 1 && $3 != 0 { n++ } END { print n }' "$base.set")" "$(item /measure/value "$base-work.h5")"
 }
 
 row() {

@@ -50,12 +50,13 @@ for ((k = 0; k * each < points; k++)); do
     sed -n "$((k * each + 1)),$(((k + 1) * each))p" "$out/boundary" | list "$name"
     paths+=("$out/$name.h5")
 done
-rules=()
+rules=() counts=() # points that have a weight
 for form in boundary volume; do
     for m in 2 3; do
         "$BIN/wsint" "${other[@]}" --points --form $form --per-axis $m "$case" >"$out/points" 2>/dev/null || continue
         awk -F '\t' 'NR > 1 { for (i = 6; i <= NF; i++) printf "%s%s", $i, i < NF ? " " : "\n" }' "$out/points" | list "$form-$m"
         rules+=("$form-$m")
+        counts+=("$(awk -F '\t' 'NR > 1 && $3 != 0 { n++ } END { print n }' "$out/points")")
     done
 done
 gauss=("${rules[@]/#/$out/}")
@@ -72,9 +73,10 @@ done
     awk -v points="$points" '{ printf "| rule | points | %s [%s] | against dense |\n|---|---|---|---|\n| dense | %s | %s | |\n", $1, $4, points, $3
         if (match($0, /twice the interval [^:]*/)) { c = substr($0, RSTART + 19, RLENGTH - 19)
             printf "| dense, twice the interval | | %s | %+.2g %% |\n", c, 100 * (c / $3 - 1) } }' "$out/shown"
-    for rule in "${rules[@]}"; do
-        awk -v rule="$rule" 'NR == FNR { dense = $3; next } { match($0, /[0-9]+ points/); printf "| Gauss, %s form, m = %s | %d | %s | %+.2f %% |\n",
-            substr(rule, 1, length(rule) - 2), substr(rule, length(rule)), substr($0, RSTART), $3, 100 * ($3 / dense - 1) }' "$out/shown" "$out/shown-$rule"
+    for ((k = 0; k < ${#rules[@]}; k++)); do
+        rule=${rules[k]}
+        awk -v form="${rule%-*}" -v m="${rule#*-}" -v points="${counts[k]}" 'NR == FNR { dense = $3; next } { printf "| Gauss, %s form, m = %s | %d | %s | %+.2f %% |\n",
+            form, m, points, $3, 100 * ($3 / dense - 1) }' "$out/shown" "$out/shown-$rule"
     done
 } >"$out/table.md"
 cat "$out/table.md" "$out/shown"
