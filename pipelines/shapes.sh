@@ -31,7 +31,7 @@ case_text() {
 
 # Only what was found, without numbers.
 reason() {
-    sed 's/^[a-z]*: //; s/ at (.*//; s/chamber [0-9]*/chamber/g; s/[0-9.e+-]* mm/N mm/g; s/surface [0-9]*/surface/g; s/[0-9][0-9.e-]*/N/g'
+    tail -n 1 | sed 's/^[a-z]*: //; s/ at (.*//; s/chamber [0-9]*/chamber/g; s/[0-9.e+-]* mm/N mm/g; s/surface [0-9]*/surface/g; s/[0-9][0-9.e-]*/N/g'
 }
 
 row() {
@@ -67,7 +67,7 @@ table() {
     cat "$@"
 }
 
-# A refusal is true where the samples see a fault, or walls below the half of a millimetre.
+# A refusal is true where the samples see a fault, or walls below the half of a millimetre; shapes with a fault are refused.
 report() {
     awk -F '\t' 'NR > 1 {
         n++; count[$15]++
@@ -85,7 +85,7 @@ report() {
         close("sort -k1,1nr -k2")
         printf "%d of %d shapes meshed, worst scaled Jacobian %s (shape %s), largest damping %s mm (shape %s)\n", meshed, n, worst, at, most, most_at
         printf "%d refused where samples see no fault:%s\n%d meshed where they see one:%s\n", unseen, unlist, faulty, list
-        exit bad > 0
+        exit bad + unseen + faulty > 0
     }' "$1"
 }
 

@@ -8,6 +8,7 @@
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/import_check.h"
 #include "tools/tetmesh/middle.h"
+#include "tools/tetmesh/relocate.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/walls.h"
 #include "tools/tetmesh/weights.h"
@@ -106,6 +107,18 @@ done:
     return status;
 }
 
+static enum pm_status relocate(struct pm_err *err)
+{
+    static int32_t tet[10] = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9};
+    static double x[30];
+    const struct pm_relocate_opts o = {0.1, 0.1, {NULL, NULL}};
+    struct pm_mesh m = {.nn = 10, .ne = 1, .npe = 10, .npf = 6, .x = x, .tet = tet};
+    ptrdiff_t left;
+    for (int i = 0; i < 30; i++)
+        x[i] = i % 7;
+    return pm_relocate(&o, &m, &left, err);
+}
+
 static enum pm_status walls(struct pm_err *err)
 {
     static double x[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, size[4] = {1, 1, 1, 1};
@@ -155,6 +168,7 @@ int main(void)
     check("weights", weights);
     check("two-face tetrahedra", split);
     check("distances of walls", walls);
+    check("better places", relocate);
     check("checks of an imported mesh", import_checks);
     pm_surfaces_release(&robot);
     return tap_done();

@@ -7,9 +7,11 @@
 #include "common/mechanics/extension.h"
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/quality.h"
+#include "tools/tetmesh/relocate.h"
 #include "tools/tetmesh/weights.h"
 
 const double pm_curve_bound = 0.2;
+static const double room_mean_ratio = 0.2, least_mean_ratio = 0.05;
 static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 
 struct curving {
@@ -186,12 +188,44 @@ void pm_curve_quality(const struct pm_mesh *m, const double *x, double *scaled, 
     }
 }
 
+/* Vertices inside make room for curved edges, and the middles of edges between them; damping may
+ * still draw these back to their chords. Not where straight elements would suffer by that. */
+static enum pm_status make_room(struct curving *c, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_relocate_opts o = {pm_curve_bound, room_mean_ratio, {NULL, NULL}};
+    struct pm_mesh *m = c->m;
+    ptrdiff_t left;
+    double scaled, mean_ratio;
+    move(c);
+    PM_TRY(pm_relocate(&o, m, &left, err));
+    pm_curve_quality(m, m->x, &scaled, &mean_ratio);
+    if (mean_ratio < least_mean_ratio)
+        goto done;
+    for (ptrdiff_t i = 0; i < 3 * c->nv; i++)
+        if (m->surface[i / 3] < 0) {
+            c->straight[i] = m->x[i];
+            c->shift[i] = 0;
+        }
+    for (ptrdiff_t e = 0; e < c->edges.n; e++)
+        for (int i = 0; i < 3; i++) {
+            const ptrdiff_t a = 3 * c->edges.low[e] + i, b = 3 * c->edges.high[e] + i,
+                            n = 3 * (c->nv + e) + i;
+            c->straight[n] = (c->straight[a] + c->straight[b]) / 2;
+            if (m->surface[c->nv + e] < 0)
+                c->shift[n] = m->x[n] - c->straight[n];
+        }
+done:
+    return status;
+}
+
 static enum pm_status untangle(struct curving *c, struct pm_curve_report *r, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_mesh *m = c->m;
     ptrdiff_t bad = 1;
     PM_TRY(PM_NEW(m->x, 3 * m->nn, err));
+    PM_TRY(make_room(c, err));
     for (r->sweeps = 0; bad > 0; r->sweeps++) {
         move(c);
         bad = damp(c);
