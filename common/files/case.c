@@ -68,6 +68,7 @@ static const struct key keys[] = {
     {"constraints", "curvature_max", NUMBER, POSITIVE, AT(c.curvature_max), 0},
     {"constraints", "amplification_max", NUMBER, NOT_NEGATIVE, AT(c.amplification_max), 0},
     {"constraints", "cap_min", NUMBER, NOT_NEGATIVE, AT(c.cap_min), 0},
+    {"constraints", "contact", WORD_AT(contact)},
     {"constraints", "domain", WORD_AT(domain)},
     {"constraints", "domain_radius", NUMBER, POSITIVE, AT(c.domain_radius), 0},
     {"constraints", "domain_x", NUMBER, POSITIVE, AT(c.domain_half[0]), 0},
@@ -324,6 +325,7 @@ static void set_defaults(struct pm_case_raw *raw)
                                 .form = "boundary",
                                 .reduce = "yes",
                                 .extension = "laplace",
+                                .contact = "ignore",
                                 .field = "exact",
                                 .weight = "none",
                                 .weight_on = "position"};

@@ -111,6 +111,7 @@ struct pm_case {
     /* [constraints] */
     double wall_min;          /* d_min [mm] */
     double curvature_max;     /* C_max [1/mm] */
+    int contact_rejects;      /* trials whose states pierce themselves */
     double amplification_max; /* of dU/dp at one point over the mean, 0: none [1] */
     double cap_min;           /* chambers stay this far from the planes z = 0 and z = H [mm] */
     enum pm_domain domain;    /* where the body stays, between the planes z = 0 and z = H */

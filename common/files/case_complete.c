@@ -434,6 +434,9 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
         c->extension = PM_EXTENSION_ELASTICITY;
     else if (strcmp(raw->extension, "laplace") != 0)
         PM_TRY(bad_word(name, "extension", raw->extension, "laplace or elasticity", err));
+    c->contact_rejects = strcmp(raw->contact, "reject") == 0;
+    if (!c->contact_rejects && strcmp(raw->contact, "ignore") != 0)
+        PM_TRY(bad_word(name, "contact", raw->contact, "ignore or reject", err));
     if (c->radius > c->radius_max)
         PM_TRY(pm_fail(err, PM_INPUT,
                        "cannot use '%s': radius in section '[optimisation]' is %g, expected "

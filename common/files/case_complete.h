@@ -12,7 +12,7 @@ struct pm_chamber_raw {
 
 struct pm_case_raw {
     struct pm_case c; /* NAN where not given */
-    char body[16], group[64], form[16], dofs[32], extension[16];
+    char body[16], group[64], form[16], dofs[32], extension[16], contact[16];
     char preset[32], domain[16];
     char reduce[8], field[16], weight[16], weight_on[16];
     /* Parameters of the l-th law of material.c; NAN where not given. */

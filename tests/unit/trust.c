@@ -54,6 +54,15 @@ static void check_judgements(void)
     trust_judge(&s, &w, &j);
     near_rel("ratio of merits", j.ratio, 31.0 / 40, 1e-12);
     s = promise();
+    int64_t pairs[2] = {0, 3};
+    w = (struct pm_work){.objective = 109, .ng = 2, .intersections = pairs};
+    s.trial.pcase.contact_rejects = 1;
+    trust_judge(&s, &w, &j);
+    ok(!j.accepted && strstr(j.reason, "1 of 2 states") != NULL, "rejected: %s", j.reason);
+    pairs[1] = 0;
+    trust_judge(&s, &w, &j);
+    ok(j.accepted, "accepted without piercing");
+    s = promise();
     s.renew = 1;
     w.objective = 60;
     trust_judge(&s, &w, &j);

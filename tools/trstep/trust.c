@@ -11,6 +11,14 @@ double trust_merit(double value, const double weight[2], const double penalty[2]
     return value - weight[0] * penalty[0] - weight[1] * penalty[1];
 }
 
+static int count_pierced(const struct pm_work *work)
+{
+    int n = 0;
+    for (ptrdiff_t g = 0; g < work->ng; g++)
+        n += work->intersections[g] > 0;
+    return n;
+}
+
 void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j)
 {
     *j = (struct judgement){.renewed = previous != NULL && previous->renew};
@@ -23,13 +31,17 @@ void trust_judge(const struct pm_step *previous, const struct pm_work *work, str
         j->accepted = 1;
         return;
     }
+    const int pierced = previous->trial.pcase.contact_rejects ? count_pierced(work) : 0;
     const double before = trust_merit(previous->value, previous->weight, previous->penalty);
     const double after = trust_merit(work->objective, previous->weight, previous->trial_penalty);
     const double promised =
         trust_merit(previous->value + previous->gain, previous->weight, previous->trial_penalty) -
         before;
     j->ratio = promised > 0 ? (after - before) / promised : 0;
-    if (!(work->objective > previous->value) && !(previous->gain < 0))
+    if (pierced > 0)
+        snprintf(j->reason, sizeof j->reason, "the body penetrates itself in %d of %td states",
+                 pierced, work->ng);
+    else if (!(work->objective > previous->value) && !(previous->gain < 0))
         snprintf(j->reason, sizeof j->reason, "the objective fell by %.3g %%",
                  100 * (1 - work->objective / previous->value));
     else if (!(j->ratio >= 0.1))
