@@ -54,7 +54,8 @@ done:
     return status;
 }
 
-/* 1 at the bounds; through 0 where the element is inverted, by its smallest Jacobian there. */
+/* 1 at the bounds; where the element is inverted at most 0, by its smallest Jacobian, less what its
+ * vertices lack in mean ratio: they shall not get flat for curved edges. */
 static double quality(const struct star *s, ptrdiff_t e)
 {
     double X[30], b[20], low = INFINITY, edges = 0;
@@ -62,13 +63,13 @@ static double quality(const struct star *s, ptrdiff_t e)
     pm_quality_bernstein(X, b);
     for (int k = 0; k < 20; k++)
         low = fmin(low, b[k]);
+    const double ratio = pm_quality_mean_ratio(X) / s->o->mean_ratio;
     if (low > 0)
-        return fmin(pm_quality_scaled(X) / s->o->scaled,
-                    pm_quality_mean_ratio(X) / s->o->mean_ratio);
+        return fmin(pm_quality_scaled(X) / s->o->scaled, ratio);
     for (int a = 0; a < 4; a++)
         for (int i = 0; i < 3 * a; i++)
             edges += (X[3 * a + i % 3] - X[i]) * (X[3 * a + i % 3] - X[i]);
-    return low / pow(edges / 6, 1.5);
+    return low / pow(edges / 6, 1.5) + fmin(ratio, 1) - 1;
 }
 
 static double worst_around(const struct star *s, ptrdiff_t a)
