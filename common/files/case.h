@@ -110,6 +110,7 @@ struct pm_case {
     enum pm_extension_kind extension;
     /* [constraints] */
     double wall_min;          /* d_min [mm] */
+    double void_min;          /* least width of grooves and cavities [mm] */
     double curvature_max;     /* C_max [1/mm] */
     int contact_rejects;      /* trials whose states pierce themselves */
     double amplification_max; /* of dU/dp at one point over the mean, 0: none [1] */

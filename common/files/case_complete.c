@@ -434,6 +434,8 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
         c->extension = PM_EXTENSION_ELASTICITY;
     else if (strcmp(raw->extension, "laplace") != 0)
         PM_TRY(bad_word(name, "extension", raw->extension, "laplace or elasticity", err));
+    if (isnan(c->void_min)) /* casting cores and grooves may be thinner than walls */
+        c->void_min = 0.4 * c->wall_min;
     c->contact_rejects = strcmp(raw->contact, "reject") == 0;
     if (!c->contact_rejects && strcmp(raw->contact, "ignore") != 0)
         PM_TRY(bad_word(name, "contact", raw->contact, "ignore or reject", err));

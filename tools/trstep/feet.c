@@ -9,10 +9,10 @@
 #include "common/geometry/distance.h"
 #include "common/geometry/domain.h"
 
-/* VOID_SHARE: casting cores and grooves may be thinner than walls. GEODESIC: half a circle of
- * diameter d is pi/2 d long, so a fold of allowed curvature does not count as its own neighbour.
- * TIGHT: further from its limit, a sample's nearest sample will do for a foot. */
-static const double VOID_SHARE = 0.4, GEODESIC = 1.6, TIGHT = 0.15;
+/* GEODESIC: half a circle of diameter d is pi/2 d long, so a fold of allowed curvature does not
+ * count as its own neighbour. TIGHT: further from its limit, a sample's nearest sample will do for
+ * a foot. */
+static const double GEODESIC = 1.6, TIGHT = 0.15;
 
 int feet_moves(const struct pm_surfaces *s, ptrdiff_t m)
 {
@@ -41,7 +41,7 @@ struct collection {
 static double limit_of(const struct penalty *p, const struct pm_near *q)
 {
     const int inside = p->samples.surface[q->i] > 0 ? PM_NEAR_INSIDE : PM_NEAR_OUTSIDE;
-    return q->other == inside ? VOID_SHARE * p->c->wall_min : p->c->wall_min;
+    return q->other == inside ? p->c->void_min : p->c->wall_min;
 }
 
 /* Foot of sample q->i near q->j, from S; the sample j itself where the search slides along a
@@ -164,7 +164,7 @@ static enum pm_status collect_walls(struct penalty *p, const double *phi, double
     ptrdiff_t n = 0;
 
     const double wall = p->c->wall_min, cutoff[2] = {hypot(wall + reach, p->cover),
-                                                     hypot(VOID_SHARE * wall + reach, p->cover)};
+                                                     hypot(p->c->void_min + reach, p->cover)};
     PM_TRY(pm_samples_near(&p->samples, p->s->ns, p->x, p->normal, p->from, cutoff, GEODESIC * wall,
                            &near, &n, err));
     PM_TRY(PM_NEW(c.wall, n + 1, err));

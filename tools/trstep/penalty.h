@@ -8,7 +8,7 @@
  * depth/wall_min beyond the planes of the ends and the sides of the domain
  *
  * d = wall_min through the solid, to other surfaces and to parts of the same one that are further
- * than GEODESIC wall_min along it, VOID_SHARE wall_min through a void (a thin cavity, a groove).
+ * than GEODESIC wall_min along it, void_min through a void (a thin cavity, a groove).
  * Chambers keep cap_min from the end planes, the exterior ends there. What no free control point
  * moves does not count. Every constraint has the weight a_q, the sample's share of the area, and a
  * multiplier lambda of the augmented Lagrangian
