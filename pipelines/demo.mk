@@ -2,9 +2,8 @@
 # demo goes on where it was.
 DEMO_CASE ?= data/cases/2A0R2T.ini
 DEMO_SIZE ?= 5
-# Small steps: the deflections of the first iterations stay moderate, and so does their cost.
-DEMO_SET ?= optimisation.radius=0.15 optimisation.radius_max=0.2
-DEMO_ITERATIONS ?= 7
+DEMO_SET ?=
+DEMO_ITERATIONS ?= 6
 DEMO_RUN ?= run/demo
 DEMO = +@$(MAKE) --no-print-directory $(JOBS) RUN=$(DEMO_RUN)
 .PHONY: demo
