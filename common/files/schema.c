@@ -34,6 +34,7 @@ static const struct pm_item table[] = {
     {"surface", "/reconstruction/distance_mean", D, "ns", "mm", "mean distance of the new surface from the old one", 0},
     {"surface", "/reconstruction/distance_max", D, "ns", "mm", "largest such distance", 0},
     {"surface", "/reconstruction/volume_ratio", D, "ns", "1", "new over old enclosed volume", 0},
+    {"surface", "/reconstruction/curvature", D, "ns", "1", "largest curvature over the larger of what it was and its limit", 0},
     {"surface mesh state path step", "/tip/reference_point", D, "3", "mm", "reference point of the end-effector", 1},
 
     {"mesh state path", "/mesh/x", D, "nn 3", "mm", "reference node positions", 1},

@@ -4,6 +4,7 @@
 
 #include "common/base/memory.h"
 #include "common/geometry/collide.h"
+#include "common/geometry/curvature.h"
 #include "common/geometry/remesh.h"
 #include "tools/surfremesh/compare.h"
 #include "tools/surfremesh/exterior.h"
@@ -29,6 +30,19 @@ int rebuild_misses(const struct rebuild *r, ptrdiff_t k)
 {
     return !(r->report->max[k] <= DISTANCE_MAX &&
              fabs(r->report->volume_ratio[k] - 1) <= VOLUME_OFF);
+}
+
+static double sharpest(const struct pm_samples *m, const double *phi)
+{
+    double most = 0, r_a[6], r_ab[9];
+    struct pm_curvature c;
+
+    for (ptrdiff_t i = 0; i < m->n; i++) {
+        pm_samples_at(m, i, phi, NULL, r_a, r_ab);
+        pm_curvature_at(r_a, r_ab, &c);
+        most = fmax(most, sqrt(c.Q));
+    }
+    return most;
 }
 
 static void judge(struct rebuild *r, ptrdiff_t k)
@@ -127,6 +141,8 @@ static enum pm_status measure(const struct rebuild *r, const struct pm_surface *
     PM_TRY(compare_surfaces(&before, &now, S, &p->mean[k], &p->max[k], err));
     p->volume_ratio[k] =
         pm_samples_volume(&now.m, f->phi, 0) / pm_samples_volume(&before.m, was->phi, 0);
+    p->bend[k] = sharpest(&now.m, f->phi) /
+                 fmax(r->from->pcase.curvature_max, sharpest(&before.m, was->phi));
     if (k == 0) {
         PM_TRY(pm_exterior_unevenness(f, &p->spacing_after[0], err));
     } else {
@@ -156,6 +172,7 @@ enum pm_status rebuild_judge_surface(struct rebuild *r, ptrdiff_t k, struct pm_e
         p->volume_ratio[image] = p->volume_ratio[k];
         p->mean[image] = p->mean[k];
         p->max[image] = p->max[k];
+        p->bend[image] = p->bend[k];
     }
 done:
     return status;

@@ -17,6 +17,7 @@ enum pm_status surfremesh_report_init(struct surfremesh_report *r, ptrdiff_t ns,
     PM_TRY(PM_NEW(r->mean, ns, err));
     PM_TRY(PM_NEW(r->max, ns, err));
     PM_TRY(PM_NEW(r->volume_ratio, ns, err));
+    PM_TRY(PM_NEW(r->bend, ns, err));
 done:
     return status;
 }
@@ -28,6 +29,7 @@ void surfremesh_report_release(struct surfremesh_report *r)
     pm_free(r->mean);
     pm_free(r->max);
     pm_free(r->volume_ratio);
+    pm_free(r->bend);
     memset(r, 0, sizeof *r);
 }
 
@@ -43,6 +45,7 @@ static void report_kept(struct rebuild *r, ptrdiff_t k)
         p->spacing_after[i] = p->spacing_before[i];
         p->mean[i] = p->max[i] = 0;
         p->volume_ratio[i] = 1;
+        p->bend[i] = 1;
     }
 }
 
@@ -110,9 +113,9 @@ static enum pm_status renew(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
         if (judged)
             pm_log(1,
                    "surface %td: %td control points for %td, spacing variation %.3f -> %.3f, "
-                   "distance mean %.4f max %.4f mm, volume %+.3f %%",
+                   "distance mean %.4f max %.4f mm, volume %+.3f %%, curvature %.3f",
                    k, r->made[k].n, r->from->s[k].n, p->spacing_before[k], p->spacing_after[k],
-                   p->mean[k], p->max[k], 100 * (p->volume_ratio[k] - 1));
+                   p->mean[k], p->max[k], 100 * (p->volume_ratio[k] - 1), p->bend[k]);
         if (p->reason[0] == '\0' || !judged || i == ATTEMPTS || !rebuild_misses(r, k) ||
             !refine(r, k))
             break;
@@ -245,6 +248,7 @@ static enum pm_status write(struct pm_h5 *f, const struct pm_surfaces *s,
     PM_TRY(pm_h5_put(f, "/reconstruction/distance_mean", &n, r->mean, err));
     PM_TRY(pm_h5_put(f, "/reconstruction/distance_max", &n, r->max, err));
     PM_TRY(pm_h5_put(f, "/reconstruction/volume_ratio", &n, r->volume_ratio, err));
+    PM_TRY(pm_h5_put(f, "/reconstruction/curvature", &n, r->bend, err));
 done:
     return status;
 }

@@ -29,6 +29,7 @@ struct surfremesh_report {
         *spacing_after;   /* (ns) variation of the spacing; exterior: longest over mean */
     double *mean, *max;   /* (ns) distance of new and old surface, both ways [mm] */
     double *volume_ratio; /* (ns) new over old enclosed volume */
+    double *bend; /* (ns) largest curvature, new over the larger of the old one and its limit */
 };
 
 enum pm_status surfremesh_run(struct surfremesh_opts *o, const struct pm_common *common,
