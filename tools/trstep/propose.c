@@ -181,23 +181,26 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
     struct penalty fresh = {.s = NULL};
     double seen[2] = {0};
 
+    p->peak = 0;
     for (int k = 0; k <= REVISIONS; k++) {
         PM_TRY(solve(p, err));
         if (!fit(s, ALLOWED))
-            break;
+            goto done;
         penalty_release(&fresh);
         PM_TRY(look(p, &fresh, seen, err));
         pm_log(2, "seen: %.4f %.4f", seen[0], seen[1]);
+        const double held = s->trial_worst[0];
         for (int j = 0; j < 2; j++)
             s->trial_worst[j] = fmax(s->trial_worst[j], seen[j]);
-        if (fit(s, ALLOWED))
+        const int good = fit(s, ALLOWED);
+        s->trial_worst[0] = held; /* peaks of curvature that only new samples see are recorded */
+        p->peak = seen[0];
+        if (good)
             break;
         const struct penalty old = p->penalty;
         p->penalty = fresh;
         fresh = old;
     }
-    p->peak = seen[0];
-    s->trial_worst[0] = fmin(s->trial_worst[0], ALLOWED[0]);
 done:
     penalty_release(&fresh);
     return status;
