@@ -27,7 +27,7 @@ plot shape
 chambers=$("$BIN/wsint" --points "$run/case.ini" | awk -F '\t' 'NR == 1 { n = NF - 5 } END { print n }')
 none=$(printf -- '-0%.0s' $(seq "$chambers"))
 none=${none:1} one=1${none:1} all=${none//0/1}
-"$MAKE" --no-print-directory RUN="$run" ITER="$last" "$run/$last/corner-$one.h5" "$run/$last/corner-$all.h5" || exit
+"$MAKE" -s --no-print-directory RUN="$run" ITER="$last" "$run/$last/corner-$one.h5" "$run/$last/corner-$all.h5" || exit
 "$BIN/pmplot" deformed "$run/$last/corner-$one.h5" >"$data/deformed-one"
 "$BIN/pmplot" deformed "$run/$last/corner-$all.h5" >"$data/deformed-all"
 plot deformed
@@ -36,7 +36,7 @@ plot deformed
 [ "$chambers" -eq 2 ] || exit 0
 for iteration in it000 "$last"; do
     d=$run/$iteration
-    "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$d/corner-$none.h5" "$d/corner-$one.h5" "$d/corner-$all.h5" || exit
+    "$MAKE" -s --no-print-directory RUN="$run" ITER="$iteration" "$d/corner-$none.h5" "$d/corner-$one.h5" "$d/corner-$all.h5" || exit
 done
 "$BIN/pmplot" workspace "$run"/it000/state-*.h5 "$run"/it000/corner-*.h5 >"$data/workspace-before"
 "$BIN/pmplot" workspace "$run/$last"/state-*.h5 "$run/$last"/corner-*.h5 >"$data/workspace-after"
