@@ -54,15 +54,6 @@ static void check_judgements(void)
     trust_judge(&s, &w, &j);
     near_rel("ratio of merits", j.ratio, 31.0 / 40, 1e-12);
     s = promise();
-    int64_t pairs[2] = {0, 3};
-    w = (struct pm_work){.objective = 109, .ng = 2, .intersections = pairs};
-    s.trial.pcase.contact_rejects = 1;
-    trust_judge(&s, &w, &j);
-    ok(!j.accepted && strstr(j.reason, "1 of 2 states") != NULL, "rejected: %s", j.reason);
-    pairs[1] = 0;
-    trust_judge(&s, &w, &j);
-    ok(j.accepted, "accepted without piercing");
-    s = promise();
     s.renew = 1;
     w.objective = 60;
     trust_judge(&s, &w, &j);
@@ -103,6 +94,23 @@ static void check_renewal(void)
     near_rel("and the radius stays", trust_radius(&s, &j), 0.3, 1e-12);
     s.ntrials = 1;
     near_rel("on a new mesh it shrinks", trust_radius(&s, &j), 0.1, 1e-12);
+}
+
+static void check_contact(void)
+{
+    struct pm_step s = promise();
+    int64_t pairs[2] = {0, 3};
+    struct pm_work w = {.objective = 109, .ng = 2, .intersections = pairs};
+    struct judgement j;
+
+    trust_judge(&s, &w, &j);
+    ok(j.accepted, "piercing is ignored");
+    s.trial.pcase.contact_rejects = 1;
+    trust_judge(&s, &w, &j);
+    ok(!j.accepted && strstr(j.reason, "1 of 2 states") != NULL, "rejected: %s", j.reason);
+    pairs[1] = 0;
+    trust_judge(&s, &w, &j);
+    ok(j.accepted, "accepted without piercing");
 }
 
 static void check_verdicts(void)
@@ -208,6 +216,7 @@ int main(void)
 {
     check_judgements();
     check_renewal();
+    check_contact();
     check_verdicts();
     check_subproblem();
     return tap_done();
