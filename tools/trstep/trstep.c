@@ -53,6 +53,28 @@ static enum pm_status compare_surfaces(struct trial *t, const char *path, struct
     return PM_OK;
 }
 
+/* New control points may not break what trials hold: curvature and walls, as samples of their own
+ * see them. */
+static enum pm_status judge_rebuilt(struct trial *t, struct pm_err *err)
+{
+    static const double allowed[2] = {0.3, 0.025};
+    static const char *const what[2] = {"curvature", "walls"};
+    enum pm_status status;
+    double sum[2], worst[2];
+
+    PM_TRY(trstep_measure(&t->surfaces, sum, worst, err));
+    for (int k = 0; k < 2; k++)
+        if (worst[k] > fmax(allowed[k], t->previous.worst[k])) {
+            t->judgement.accepted = 0;
+            t->judgement.kept = 1;
+            snprintf(t->judgement.reason, sizeof t->judgement.reason,
+                     "new control points violate %s by %.3g, the old ones by %.3g", what[k],
+                     worst[k], t->previous.worst[k]);
+        }
+done:
+    return status;
+}
+
 static enum pm_status load_trial(const struct trstep_opts *opts, char *const *paths,
                                  struct trial *t, struct pm_err *err)
 {
@@ -71,6 +93,8 @@ static enum pm_status load_trial(const struct trstep_opts *opts, char *const *pa
         PM_TRY(compare_surfaces(t, paths[0], err));
     }
     trust_judge(t->before, &t->work, &t->judgement);
+    if (t->rebuilt && t->judgement.accepted)
+        PM_TRY(judge_rebuilt(t, err));
     if (t->before == NULL && !t->judgement.accepted)
         PM_TRY(pm_fail(err, PM_NUMERIC, "the first design failed: %s", t->judgement.reason));
     if (t->before == NULL && !(t->work.value > 0))
