@@ -200,6 +200,10 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
         const struct penalty old = p->penalty;
         p->penalty = fresh;
         fresh = old;
+        /* what they see of the start is part of it */
+        PM_TRY(measure(p, p->phi, s->penalty, seen, err));
+        for (int j = 0; j < 2; j++)
+            s->worst[j] = fmax(s->worst[j], seen[j]);
     }
 done:
     penalty_release(&fresh);
