@@ -60,12 +60,6 @@ static double curvature(const double r_a[6], const double r_ab[9], double n[3])
     return (fabs(H) + sqrt(fmax(H * H - K, 0))) / sqrt(det);
 }
 
-static double distance(const double p[3], const double q[3])
-{
-    return sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
-                (p[2] - q[2]) * (p[2] - q[2]));
-}
-
 static enum pm_status size_at(struct pm_edit *m, const struct pm_remesh_opts *o, const double S[3],
                               double *size, struct pm_err *err)
 {
@@ -96,7 +90,7 @@ static enum pm_status look_between(struct pm_edit *m, const struct pm_remesh_opt
                 continue;
             pm_map_middle(m->type, m->S + 3 * a, m->S + 3 * b, S);
             PM_TRY(size_at(m, o, S, &h, err));
-            h += o->growth * distance(m->x + 3 * a, m->x + 3 * b) / 2;
+            h += o->growth * pm_edit_length(m, a, b) / 2;
             m->size[a] = fmin(m->size[a], h);
             m->size[b] = fmin(m->size[b], h);
         }
@@ -119,7 +113,7 @@ static enum pm_status set_sizes(struct pm_edit *m, const struct pm_remesh_opts *
         for (ptrdiff_t t = 0; t < m->nt; t++) {
             for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
                 const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
-                const double l = distance(m->x + 3 * a, m->x + 3 * b);
+                const double l = pm_edit_length(m, a, b);
                 const double ha = fmin(m->size[a], m->size[b] + o->growth * l);
                 const double hb = fmin(m->size[b], m->size[a] + o->growth * l);
                 changed |= ha < m->size[a] * (1 - 1e-3) || hb < m->size[b] * (1 - 1e-3);

@@ -25,7 +25,7 @@ double pm_parameter_orientation(int32_t type, const double a[3], const double b[
            a[2] * (u[0] * v[1] - u[1] * v[0]);
 }
 
-static double length(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
+double pm_edit_length(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
 {
     const double *p = m->x + 3 * a, *q = m->x + 3 * b;
     return sqrt((p[0] - q[0]) * (p[0] - q[0]) + (p[1] - q[1]) * (p[1] - q[1]) +
@@ -332,7 +332,7 @@ enum pm_status pm_edit_split(struct pm_edit *m, double ratio, ptrdiff_t *count, 
         double longest = ratio;
         for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
             const ptrdiff_t p = m->tri[3 * t + k], q = m->tri[3 * t + (k + 1) % 3];
-            const double l = length(m, p, q) / wanted(m, p, q);
+            const double l = pm_edit_length(m, p, q) / wanted(m, p, q);
             if (l > longest) {
                 longest = l;
                 a = p;
@@ -386,8 +386,8 @@ static int may_collapse(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b)
         const int i = corner(m, f, a);
         const ptrdiff_t p = v[(i + 1) % 3], q = v[(i + 2) % 3];
         if (!acceptable(facet(m, b, p, q), before) ||
-            length(m, b, p) > pm_edit_longest * wanted(m, b, p) ||
-            length(m, b, q) > pm_edit_longest * wanted(m, b, q))
+            pm_edit_length(m, b, p) > pm_edit_longest * wanted(m, b, p) ||
+            pm_edit_length(m, b, q) > pm_edit_longest * wanted(m, b, q))
             return 0;
     }
     return 1;
@@ -424,7 +424,7 @@ ptrdiff_t pm_edit_collapse(struct pm_edit *m)
     for (ptrdiff_t t = 0; t < m->nt; t++) {
         for (int k = 0; k < 3 && m->tri[3 * t] >= 0; k++) {
             const ptrdiff_t a = m->tri[3 * t + k], b = m->tri[3 * t + (k + 1) % 3];
-            if (length(m, a, b) >= pm_edit_shortest * wanted(m, a, b))
+            if (pm_edit_length(m, a, b) >= pm_edit_shortest * wanted(m, a, b))
                 continue;
             const int forward = may_collapse(m, a, b);
             if (forward || may_collapse(m, b, a)) {

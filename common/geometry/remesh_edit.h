@@ -48,6 +48,8 @@ ptrdiff_t pm_edit_flip(struct pm_edit *m);
 /* Smallest over the triangles around a of (unit normal of the facet) . (mean surface normal of its
  * nodes), -1 where one is folded in the parameter. */
 double pm_edit_worst(const struct pm_edit *m, ptrdiff_t a);
+/* Length of the edge (a, b) [mm]. */
+double pm_edit_length(const struct pm_edit *m, ptrdiff_t a, ptrdiff_t b);
 /* Area of all triangles [mm2]. */
 double pm_edit_area(const struct pm_edit *m);
 /* Number of triangles over that of equilateral ones with edges of the wanted length. */

@@ -211,6 +211,18 @@ static void radial(void)
     pm_case_release(&c);
 }
 
+static int round_robot(struct pm_case *c, struct pm_surfaces *s, struct surfremesh_report *report,
+                       struct pm_err *err)
+{
+    struct pm_surfgen_report fit;
+
+    if (pm_case_parse(ROUND, "round", c, err) == PM_OK && pm_surfgen(c, s, &fit, err) == PM_OK &&
+        surfremesh_report_init(report, s->ns, err) == PM_OK)
+        return 1;
+    ok(0, "%s", err->text);
+    return 0;
+}
+
 /* The rows of a wavy exterior are pushed towards the base: a new parametrisation spreads them
  * again. */
 static void exterior(void)
@@ -218,17 +230,12 @@ static void exterior(void)
     struct pm_err err = {0};
     struct pm_case c = {0};
     struct pm_surfaces s = {0}, to = {0};
-    struct pm_surfgen_report fit;
     const struct surfremesh_opts o = {.alpha = 0.1, .iterations = 20};
     struct surfremesh_report report = {0};
     double *phi = NULL;
 
-    if (pm_case_parse(ROUND, "round", &c, &err) != PM_OK ||
-        pm_surfgen(&c, &s, &fit, &err) != PM_OK ||
-        surfremesh_report_init(&report, s.ns, &err) != PM_OK) {
-        ok(0, "%s", err.text);
+    if (!round_robot(&c, &s, &report, &err))
         return;
-    }
     struct pm_surface *f = &s.s[0];
     for (ptrdiff_t i = 2 * f->nu; i < f->n - 2 * f->nu; i++) {
         double v = f->Phi[3 * i + 2], wave = 1 + 0.04 * sin(25 * v * v);
@@ -265,16 +272,11 @@ static void partly(void)
     struct pm_err err = {0};
     struct pm_case c = {0};
     struct pm_surfaces s = {0}, to = {0};
-    struct pm_surfgen_report fit;
     const struct surfremesh_opts o = {.alpha = 0.1};
     struct surfremesh_report report = {0};
 
-    if (pm_case_parse(ROUND, "round", &c, &err) != PM_OK ||
-        pm_surfgen(&c, &s, &fit, &err) != PM_OK ||
-        surfremesh_report_init(&report, s.ns, &err) != PM_OK) {
-        ok(0, "%s", err.text);
+    if (!round_robot(&c, &s, &report, &err))
         return;
-    }
     struct pm_surface *f = &s.s[0];
     for (ptrdiff_t i = 2 * f->nu; i < f->n - 2 * f->nu; i++) {
         const double v = f->Phi[3 * i + 2], wave = 1 + (i / f->nu % 2 ? 0.05 : -0.05);

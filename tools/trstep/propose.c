@@ -78,15 +78,15 @@ static double reach(const struct pm_step *s)
     return fmax(4 * s->radius - s->accepted.pcase.wall_min, s->radius / 2);
 }
 
-/* All constraints at phi. */
-static enum pm_status measure(struct proposal *p, const double *phi, double sum[2], double worst[2],
-                              struct pm_err *err)
+/* All constraints at phi, as the samples of q see them. */
+static enum pm_status measure(const struct proposal *p, struct penalty *q, const double *phi,
+                              double sum[2], double worst[2], struct pm_err *err)
 {
     enum pm_status status;
     struct penalty_value v;
 
-    PM_TRY(penalty_collect(&p->penalty, phi, reach(p->s), 0.8, err));
-    penalty_at(&p->penalty, phi, p->rho, NULL, &v);
+    PM_TRY(penalty_collect(q, phi, reach(p->s), 0.8, err));
+    penalty_at(q, phi, p->rho, NULL, &v);
     memcpy(sum, v.sum, sizeof v.sum);
     memcpy(worst, v.worst, sizeof v.worst);
 done:
@@ -108,7 +108,7 @@ static enum pm_status complete(struct proposal *p, struct pm_err *err)
     struct pm_step *s = p->s;
     const struct subproblem problem = subproblem_of(p);
 
-    PM_TRY(measure(p, p->trial, s->trial_penalty, s->trial_worst, err));
+    PM_TRY(measure(p, &p->penalty, p->trial, s->trial_penalty, s->trial_worst, err));
     s->gain = secants_value(&p->secants, p->step);
     s->max_step = 0;
     for (ptrdiff_t i = 0; i < 3 * p->N; i++)
@@ -159,15 +159,13 @@ static enum pm_status look(struct proposal *p, struct penalty *fresh, double see
 {
     enum pm_status status;
     struct pm_step *s = p->s;
-    struct penalty_value v;
+    double sum[2];
 
     move(p, p->step);
     pm_symmetrise_points(&s->accepted, p->trial);
     pm_surfaces_scatter(&s->trial, p->trial);
     PM_TRY(penalty_new(&s->trial, fresh, err));
-    PM_TRY(penalty_collect(fresh, p->trial, reach(s), 0.8, err));
-    penalty_at(fresh, p->trial, p->rho, NULL, &v);
-    memcpy(seen, v.worst, sizeof v.worst);
+    PM_TRY(measure(p, fresh, p->trial, sum, seen, err));
 done:
     return status;
 }
@@ -201,7 +199,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
         p->penalty = fresh;
         fresh = old;
         /* what they see of the start is part of it */
-        PM_TRY(measure(p, p->phi, s->penalty, seen, err));
+        PM_TRY(measure(p, &p->penalty, p->phi, s->penalty, seen, err));
         for (int j = 0; j < 2; j++)
             s->worst[j] = fmax(s->worst[j], seen[j]);
     }
@@ -272,7 +270,7 @@ static enum pm_status prepare(struct proposal *p, struct pm_err *err)
         p->rho[k] = STIFFNESS * scale;
         s->weight[k] = fmax(s->weight[k], MERIT * scale);
     }
-    PM_TRY(measure(p, p->phi, s->penalty, s->worst, err));
+    PM_TRY(measure(p, &p->penalty, p->phi, s->penalty, s->worst, err));
 done:
     return status;
 }
