@@ -96,7 +96,8 @@ static inline enum pm_status sample_mesh(struct pm_mesh *m, struct pm_err *err)
                           .npf = 6,
                           .nw = 4,
                           .N = 28,
-                          .min_jacobian = 0.5};
+                          .min_jacobian = 0.5,
+                          .coarse = 0.01};
     PM_TRY(pm_case_parse(sample_case_text, "sample", &m->pcase, err));
     PM_TRY(PM_NEW(m->x, 30, err));
     PM_TRY(PM_NEW(m->x_generated, 30, err));

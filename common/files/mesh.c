@@ -49,6 +49,8 @@ static enum pm_status read_arrays(struct pm_h5 *f, struct pm_mesh *m, struct pm_
         PM_TRY(pm_h5_get(f, "/mesh/tag", d, &m->tag, err));
     PM_TRY(pm_h5_get_double(f, "/mesh/max_damping", &m->max_damping, err));
     PM_TRY(pm_h5_get_double(f, "/mesh/min_jacobian", &m->min_jacobian, err));
+    if (pm_h5_has(f, "/mesh/coarse"))
+        PM_TRY(pm_h5_get_double(f, "/mesh/coarse", &m->coarse, err));
     PM_TRY(pm_h5_get_int(f, "/mesh/origin", &m->origin, err));
     PM_TRY(pm_h5_get_int(f, "/mesh/delaunay", &m->delaunay, err));
     PM_TRY(pm_h5_get_into(f, "/tip/reference_point", 3, m->reference_point, err));
@@ -156,6 +158,7 @@ enum pm_status pm_mesh_write(struct pm_h5 *f, const struct pm_mesh *m, struct pm
     PM_TRY(write_arrays(f, m, err));
     PM_TRY(pm_h5_put_double(f, "/mesh/max_damping", m->max_damping, err));
     PM_TRY(pm_h5_put_double(f, "/mesh/min_jacobian", m->min_jacobian, err));
+    PM_TRY(pm_h5_put_double(f, "/mesh/coarse", m->coarse, err));
     PM_TRY(pm_h5_put_int(f, "/mesh/origin", m->origin, err));
     PM_TRY(pm_h5_put_int(f, "/mesh/delaunay", m->delaunay, err));
     PM_TRY(pm_h5_put_vtk(f, "/mesh/x", m->nn, m->ne, m->npe, m->tet, err));

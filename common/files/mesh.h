@@ -45,6 +45,8 @@ struct pm_mesh {
     int64_t *tag;        /* node numbers of the imported file, NULL otherwise (nn) */
     double max_damping;  /* largest 1 - t of a mid-side node */
     double min_jacobian; /* smallest scaled Jacobian, Bernstein lower bound */
+    double coarse; /* part of the area of the surfaces where edges were 1.5 times longer than wanted
+                      when it was generated; 0 for imported */
     int64_t origin;      /* PM_ORIGIN_* */
     int64_t delaunay;    /* 1: HXT failed, made by the slower Delaunay mesher */
 };

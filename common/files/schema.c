@@ -51,6 +51,7 @@ static const struct pm_item table[] = {
     {"mesh state path", "/mesh/weight_val", D, "nw", "1", "weight: x = sum weight * phi", 1},
     {"mesh state path", "/mesh/max_damping", D, "", "1", "largest damping of a mid-side node", 1},
     {"mesh state path", "/mesh/min_jacobian", D, "", "1", "smallest scaled Jacobian, lower bound", 1},
+    {"mesh state path", "/mesh/coarse", D, "", "1", "part of the surfaces where edges were 1.5 times longer than wanted when it was generated", 0},
     {"mesh state path", "/mesh/origin", I64, "", "1", "0 generated, 1 morphed from a previous mesh, 2 imported", 1},
     {"mesh state path", "/mesh/delaunay", I64, "", "1", "1: HXT failed, made by the Delaunay mesher", 1},
     {"mesh state path", "/mesh/tag", I64, "nn", "1", "node numbers of the imported file", 0},

@@ -60,6 +60,18 @@ static double curvature(const double r_a[6], const double r_ab[9], double n[3])
     return (fabs(H) + sqrt(fmax(H * H - K, 0))) / sqrt(det);
 }
 
+static double length_at(const struct pm_remesh_opts *o, double k)
+{
+    const double crest = fmin(o->size, o->crest / k);
+    return o->chord > 0 ? fmin(crest, sqrt(8 * o->chord / k)) : crest;
+}
+
+double pm_remesh_length(const struct pm_remesh_opts *o, const double r_a[6], const double r_ab[9])
+{
+    double n[3];
+    return fmax(o->size_min, length_at(o, curvature(r_a, r_ab, n)));
+}
+
 static enum pm_status size_at(struct pm_edit *m, const struct pm_remesh_opts *o, const double S[3],
                               double *size, struct pm_err *err)
 {
@@ -67,9 +79,7 @@ static enum pm_status size_at(struct pm_edit *m, const struct pm_remesh_opts *o,
     double x[3], r_a[6], r_ab[9], n[3];
     PM_TRY(pm_map_point(m->map, m->phi, S, &m->basis, x, r_a, r_ab, err));
     const double k = curvature(r_a, r_ab, n);
-    double bound = fmin(o->size, o->crest / k);
-    if (o->chord > 0)
-        bound = fmin(bound, sqrt(8 * o->chord / k));
+    double bound = length_at(o, k);
     if (o->bound != NULL)
         bound = fmin(bound, o->bound(o->data, x, n, k));
     *size = fmax(o->size_min, bound);

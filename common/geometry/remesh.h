@@ -39,6 +39,9 @@ struct pm_patch {
 enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,
                          struct pm_patch *p, struct pm_err *err);
 void pm_patch_release(struct pm_patch *p);
+/* Wanted edge length by size, crest and chord alone where the derivatives of the surface are r_a
+ * (2 x 3) and r_ab (3 x 3) [mm]. */
+double pm_remesh_length(const struct pm_remesh_opts *o, const double r_a[6], const double r_ab[9]);
 /* The bit in `rim` of the mirror plane S_axis = 0. */
 uint8_t pm_rim_plane(int32_t type, int axis);
 /* Puts S back on the rims of these bits: v of a tube, mirror planes. */

@@ -11,7 +11,7 @@ check "a small robot" "$BIN/surfgen" tests/data/tiny.ini -o "$work/s.h5"
 # meshes
 expect 0 "mesh" "$tetmesh" "$work/s.h5" -o "$work/m.h5"
 check "it keeps its promises" "$LIB/check_mesh" "$work/m.h5" "$work/s.h5" 0.06
-expect 0 "finer mesh" "$tetmesh" "$work/s.h5" --size 4 -o "$work/fine.h5" -v
+expect 0 "finer mesh" "$tetmesh" "$work/s.h5" --size 3 -o "$work/fine.h5" -v
 check "it keeps its promises" "$LIB/check_mesh" "$work/fine.h5" "$work/s.h5" 0.005
 check "-v tells nodes, tetrahedra, unknowns" grep -Eq '[0-9]+ nodes, [0-9]+ tetrahedra, [0-9]+ unknowns' "$work/err"
 cp "$work/m.h5" "$work/first.h5"
@@ -26,13 +26,15 @@ sed 's/radius = 6/radius = 6.1/' tests/data/tiny.ini >"$work/t.ini"
 check "larger chambers" "$BIN/surfgen" "$work/t.ini" -o "$work/t.h5"
 expect 0 "larger chambers, previous mesh" "$tetmesh" "$work/t.h5" --previous "$work/m.h5" -o "$work/p.h5"
 check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/t.h5" 0.1
-"$LIB/random_shape" 3 2.5 "$work/s.h5" "$work/r.h5" >"$work/seen"
+"$LIB/random_shape" 3 2.3 "$work/s.h5" "$work/r.h5" >"$work/seen"
 expect 0 "a motion too large for the record" "$tetmesh" "$work/r.h5" --previous "$work/fine.h5" --keep-mesh -o "$work/p.h5" -v
 check "goes on from the present state" grep -q "morphed from its present state.*, 0 mid-side nodes damped" "$work/err"
 check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/r.h5" 0.06
 expect 0 "that is its record" "$tetmesh" "$work/r.h5" --previous "$work/p.h5" --keep-mesh -o "$work/q.h5" -v
 check "nothing moves" "$LIB/check_mesh" "$work/q.h5" "$work/r.h5" 0.06
 check "and nothing else is tried" test "$(grep -c morphed "$work/err")" -eq 1
+refused 4 "edges too long for what is wanted" "worn mesh: .* of its surfaces edges are above 1.5 times" \
+    "$tetmesh" "$work/s.h5" --size 3 --previous "$work/m.h5" --keep-mesh -o "$out/x.h5"
 sed 's/rows = 14/rows = 16/' tests/data/tiny.ini >"$work/u.ini"
 check "another exterior" "$BIN/surfgen" "$work/u.ini" -o "$work/u.h5"
 expect 0 "another parametrisation" "$tetmesh" "$work/u.h5" --previous "$work/m.h5" -o "$work/p.h5"

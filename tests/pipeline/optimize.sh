@@ -20,7 +20,8 @@ check "the second iteration renews the design and says the jump" awk -F '\t' 'NR
     NR == 4 { off = $3 / t - 1 - $12; good = $2 == 1 && $11 > 0 && $12 != 0 && off < 0.005 && off > -0.005 } END { exit !good }' "$work/first/history.tsv"
 check "and reconstructs its surfaces" test -e "$work/first/it002/surf.h5" -a ! -e "$work/first/it001/surf.h5"
 
-# The states of an iteration start from those of the one before; of four the second and third bound the median.
+# The states of an iteration start from those of the one before, here of another mesh: the leap wears the coarse one. Of four the
+# second and third bound the median.
 factorisations() {
     local state
     for state in "$work/first/$1"/state-0?.h5; do
@@ -28,7 +29,7 @@ factorisations() {
     done | sort -n | sed -n 3p
 }
 check "from zero at most 8 factorisations, median" test "$(factorisations it000)" -le 8
-check "from the previous iteration at most 2, median" test "$(factorisations it001)" -le 2
+check "from the previous iteration at most 3, median" test "$(factorisations it001)" -le 3
 
 check "the same again" run second 2
 same() {

@@ -58,7 +58,7 @@ static void test_mesh(const char *path)
     ok(SAME(a.surface, b.surface, a.nn) && SAME(a.S, b.S, 3 * a.nn), "parameters come back");
     ok(SAME(a.wptr, b.wptr, a.nn + 1) && SAME(a.wcol, b.wcol, a.nw) && SAME(a.wval, b.wval, a.nw),
        "weights come back");
-    ok(a.max_damping == b.max_damping && a.min_jacobian == b.min_jacobian &&
+    ok(a.max_damping == b.max_damping && a.min_jacobian == b.min_jacobian && a.coarse == b.coarse &&
            SAME(a.reference_point, b.reference_point, 3) && b.tag == NULL && b.failure[0] == '\0',
        "scalars come back");
     pm_mesh_release(&b);

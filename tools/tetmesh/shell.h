@@ -4,6 +4,7 @@
 #define PM_SHELL_H
 
 #include "common/files/surfaces.h"
+#include "common/geometry/remesh.h"
 #include "tools/tetmesh/mirror.h"
 
 struct pm_walls;
@@ -26,6 +27,8 @@ struct pm_shell_opts {
     const struct pm_walls *walls; /* edges are shorter at thin walls (walls.h), or NULL */
 };
 
+/* Edges of `size` mm, shorter where curved. */
+struct pm_remesh_opts pm_shell_edges(double size);
 /* Meshes all surfaces on the positive sides of the planes of y with edges of about `size` mm
  * (shorter where curved) and the planar caps at the rims of the exterior, which come from gmsh. The
  * faces on the planes are for pm_flat_cuts, after the checks. */

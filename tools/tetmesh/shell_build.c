@@ -1,7 +1,6 @@
 #include <string.h>
 
 #include "common/base/memory.h"
-#include "common/geometry/remesh.h"
 #include "tools/tetmesh/flat.h"
 #include "tools/tetmesh/shell.h"
 #include "tools/tetmesh/walls.h"
@@ -29,6 +28,12 @@ static enum pm_status add_patch(struct pm_shell *s, const struct pm_patch *p, in
     return PM_OK;
 }
 
+struct pm_remesh_opts pm_shell_edges(double size)
+{
+    return (struct pm_remesh_opts){
+        .size = size, .size_min = size / 6, .crest = 1.2, .growth = 0.35, .sweeps = 8};
+}
+
 enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirrors *y,
                               const struct pm_shell_opts *opts, struct pm_shell *shell,
                               struct pm_err *err)
@@ -36,15 +41,11 @@ enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirro
     enum pm_status status = PM_OK;
     const double size = opts->size, timeout = opts->timeout;
     struct pm_wall_side side = {.walls = opts->walls};
-    struct pm_remesh_opts o = {.size = size,
-                               .size_min = size / 6,
-                               .crest = 1.2,
-                               .growth = 0.35,
-                               .sweeps = 8,
-                               .bound = opts->walls != NULL ? pm_walls_bound : NULL,
-                               .data = &side};
+    struct pm_remesh_opts o = pm_shell_edges(size);
     struct pm_patch patch = {0};
     *shell = (struct pm_shell){.planes = y->planes};
+    o.bound = opts->walls != NULL ? pm_walls_bound : NULL;
+    o.data = &side;
     for (ptrdiff_t k = 0; k < s->ns; k++) {
         int kept;
         const unsigned cut = pm_mirrors_cut(y, s, k, &kept);

@@ -5,25 +5,16 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
-#include "common/mechanics/extension.h"
+#include "tools/tetmesh/coarse.h"
 #include "tools/tetmesh/curve.h"
 #include "tools/tetmesh/flat.h"
 #include "tools/tetmesh/import_msh.h"
 #include "tools/tetmesh/mirror.h"
-#include "tools/tetmesh/redamp.h"
-#include "tools/tetmesh/relocate.h"
+#include "tools/tetmesh/reuse.h"
 #include "tools/tetmesh/shell.h"
 #include "tools/tetmesh/split.h"
 #include "tools/tetmesh/volume_gmsh.h"
 #include "tools/tetmesh/walls.h"
-#include "tools/tetmesh/weights.h"
-
-/* What a morphed mesh must keep: half of the smallest scaled Jacobian of a new one, and a mean
- * ratio of the straight tetrahedra (0.3 or more in new ones). */
-static const double min_scaled = 0.1, min_mean_ratio = 0.1;
-/* A mesh below min_scaled is damped to this, so that it bears a further step. */
-static const double redamp_scaled = 0.15;
-static const double relocated_mean_ratio = 0.15;
 
 /* What is asked of a new mesh. */
 struct sizes {
@@ -145,136 +136,9 @@ done:
     return status;
 }
 
-struct quality {
-    double scaled, mean_ratio;
-};
-
-static int bears(const struct pm_mesh *m, struct quality *q)
+static double edge_length(const struct tetmesh_opts *o, const struct pm_surfaces *s)
 {
-    pm_curve_quality(m, m->x, &q->scaled, &q->mean_ratio);
-    return q->scaled >= min_scaled && q->mean_ratio >= min_mean_ratio;
-}
-
-/* Moves the nodes of m to control points phi by the extension of its record. *good = 0 where its
- * elements do not bear that. */
-static enum pm_status follow(const double *phi, struct pm_mesh *m, int *good, struct quality *q,
-                             ptrdiff_t *damped, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    struct pm_extension *ext = NULL;
-    PM_TRY(pm_extension_new(m, &ext, err));
-    PM_TRY(pm_mesh_morph(m, ext, phi, err));
-    *good = bears(m, q);
-    if (!*good && q->mean_ratio >= min_mean_ratio) {
-        PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, damped, err));
-        *good = bears(m, q);
-    }
-done:
-    pm_extension_free(ext);
-    return status;
-}
-
-/* The same from where the nodes are, inside as an elastic solid and with distorted elements
- * relieved: x_generated, the record, begins anew there. The mesh is its own image at `planes`. */
-static enum pm_status renew(const double *phi, unsigned planes, struct pm_mesh *m, int *good,
-                            struct quality *q, ptrdiff_t *damped, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    struct pm_extension *ext = NULL;
-    int32_t *image[2];
-    ptrdiff_t left;
-    PM_TRY(pm_mesh_images(m, planes, image, err));
-    const struct pm_relocate_opts o = {redamp_scaled, relocated_mean_ratio, {image[0], image[1]}};
-    memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
-    m->pcase.extension =
-        PM_EXTENSION_ELASTICITY; /* until the caller takes the case of the surfaces */
-    PM_TRY(pm_extension_new(m, &ext, err));
-    PM_TRY(pm_mesh_morph(m, ext, phi, err));
-    PM_TRY(pm_relocate(&o, m, &left, err));
-    *good = bears(m, q);
-    if (!*good) {
-        PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, damped, err));
-        PM_TRY(pm_relocate(&o, m, &left, err));
-        *good = bears(m, q);
-    }
-    memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
-done:
-    pm_free(image[0]);
-    pm_free(image[1]);
-    pm_extension_free(ext);
-    return status;
-}
-
-enum { WHY = 256 };
-
-/* Moves the nodes of m, its own image at `planes`, to the control points of s. *good = 0 where its
- * elements do not bear that, and why. */
-static enum pm_status morph(const struct pm_surfaces *s, unsigned planes, int anew,
-                            struct pm_mesh *m, int *good, char *why, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    double *phi = NULL;
-    struct quality q;
-    ptrdiff_t damped = 0;
-    PM_TRY(PM_NEW(phi, 3 * m->N, err));
-    pm_surfaces_gather(s, phi);
-    if (anew)
-        PM_TRY(renew(phi, planes, m, good, &q, &damped, err));
-    else
-        PM_TRY(follow(phi, m, good, &q, &damped, err));
-    m->min_jacobian = q.scaled;
-    m->origin = PM_ORIGIN_MORPHED;
-    pm_log(
-        1,
-        "previous mesh morphed%s: scaled Jacobian %.3f, mean ratio %.3f, %td mid-side nodes damped",
-        anew ? " from its present state" : "", q.scaled, q.mean_ratio, damped);
-    if (!*good)
-        snprintf(why, WHY,
-                 "its elements do not bear the motion: scaled Jacobian %.3f, mean ratio %.3f",
-                 q.scaled, q.mean_ratio);
-done:
-    pm_free(phi);
-    return status;
-}
-
-/* Tries the previous mesh, which must be cut at `planes`: *good = 1 and m holds it morphed, or 0,
- * m is empty, and why. */
-static enum pm_status reuse(const char *path, const struct pm_surfaces *s,
-                            const struct pm_mirrors *y, unsigned planes, struct pm_mesh *m,
-                            int *good, char *why, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    struct pm_err broken = {.status = PM_OK};
-    int same = 0;
-    *good = 0;
-    PM_TRY(pm_mesh_load(path, 1, m, err));
-    if (m->failure[0] != '\0') {
-        snprintf(why, WHY, "it records a failure");
-    } else if (m->N == 0) {
-        PM_TRY(pm_fail(err, PM_INPUT,
-                       "cannot use '%s': an imported mesh has no control points, expected one made "
-                       "from surfaces",
-                       path));
-    } else if (pm_mirrors_of(m) != planes) {
-        snprintf(why, WHY, "it is of another part of the body");
-    } else if (pm_mirrors_check(s, y, &broken) != PM_OK) {
-        snprintf(why, WHY, "%.200s", broken.text);
-    } else {
-        PM_TRY(pm_weights_same(m, s, &same, err));
-        if (!same)
-            snprintf(why, WHY, "it has another parametrisation");
-        for (int anew = 0; anew < 2 && same && !*good; anew++) {
-            if (anew) { /* damping has changed it */
-                pm_mesh_release(m);
-                PM_TRY(pm_mesh_load(path, 1, m, err));
-            }
-            PM_TRY(morph(s, y->planes & ~planes, anew, m, good, why, err));
-        }
-    }
-done:
-    if (status != PM_OK || !*good)
-        pm_mesh_release(m);
-    return status;
+    return o->size > 0 ? o->size : s->pcase.mesh_size;
 }
 
 /* A new mesh: of the part that all mirrors leave, and its images at those that do not bound the
@@ -284,7 +148,7 @@ static enum pm_status make_new(const struct tetmesh_opts *o, const struct pm_sur
                                struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    const struct sizes sizes = {.size = o->size > 0 ? o->size : s->pcase.mesh_size,
+    const struct sizes sizes = {.size = edge_length(o, s),
                                 .timeout = o->timeout,
                                 .layers = o->layers >= 0 ? o->layers : s->pcase.mesh_layers};
     double mean_ratio;
@@ -294,6 +158,7 @@ static enum pm_status make_new(const struct tetmesh_opts *o, const struct pm_sur
         if ((y->planes & ~planes) >> axis & 1)
             PM_TRY(pm_mesh_reflect(s, y, axis, m, err));
     pm_curve_quality(m, m->x, &m->min_jacobian, &mean_ratio);
+    PM_TRY(pm_coarse_part(s, sizes.size, m, &m->coarse, err));
 done:
     return status;
 }
@@ -304,18 +169,18 @@ static enum pm_status make(const struct tetmesh_opts *o, const struct pm_surface
 {
     enum pm_status status = PM_OK;
     struct pm_mirrors y;
-    char why[WHY] = "";
-    int good = 0;
     pm_mirrors_find(s, &y);
     const unsigned planes = o->whole ? 0 : y.own;
+    struct pm_reuse r = {
+        .path = o->previous, .s = s, .y = &y, .planes = planes, .size = edge_length(o, s)};
     if (o->previous != NULL)
-        PM_TRY(reuse(o->previous, s, &y, planes, m, &good, why, err));
-    if (good)
+        PM_TRY(pm_reuse_mesh(&r, m, err));
+    if (r.good)
         return PM_OK;
     if (o->keep_mesh)
-        return pm_fail(err, PM_NUMERIC, "worn mesh: cannot morph '%s': %s", o->previous, why);
+        return pm_fail(err, PM_NUMERIC, "worn mesh: cannot morph '%s': %s", o->previous, r.why);
     if (o->previous != NULL)
-        pm_log(0, "previous mesh '%s' given up, %s: meshing anew", o->previous, why);
+        pm_log(0, "previous mesh '%s' given up, %s: meshing anew", o->previous, r.why);
     PM_TRY(make_new(o, s, &y, planes, m, err));
 done:
     return status;
