@@ -169,7 +169,8 @@ static inline enum pm_status sample_sweep(struct pm_sweep *s, struct pm_err *err
         s->reached[i] = i < 2;
         s->factorisations[i] = 3 - i;
         s->intersections[i] = i == 1;
-        s->energy[i] = s->residual[i] = s->min_det_F[i] = s->gap[i] = sample_number(i);
+        s->energy[i] = s->residual[i] = s->min_det_F[i] = s->gap[i] = s->closeness[i] =
+            sample_number(i);
     }
     for (ptrdiff_t i = 0; i < 6; i++)
         s->pressure[i] = s->volume[i] = sample_number(i);
@@ -208,6 +209,8 @@ static inline enum pm_status sample_work(struct pm_work *w, struct pm_err *err)
     PM_TRY(PM_NEW(w->intersections, 4, err));
     w->intersections[2] = 3;
     PM_TRY(sample_numbers(&w->gap, 4, err));
+    PM_TRY(sample_numbers(&w->closeness_at, 4, err));
+    PM_TRY(sample_numbers(&w->dw_dG, 4, err));
 done:
     return status;
 }

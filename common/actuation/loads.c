@@ -193,13 +193,40 @@ static struct pm_load make_load(const struct pm_case *c, const struct point *q, 
     return l;
 }
 
-static struct pm_load guard(const struct pm_case *c, enum pm_form form)
+/* Chamber `alone`, or all (-1), at pmax. */
+static struct pm_load guard(const struct pm_case *c, enum pm_form form, ptrdiff_t alone)
 {
     struct pm_load l = {.face = form == PM_FORM_BOUNDARY ? 0 : -1, .sign = 1, .multiplicity = 1};
 
     for (ptrdiff_t r = 0; r < c->nchambers; r++)
-        l.p[r] = c->pmax;
+        l.p[r] = alone < 0 || r == alone ? c->pmax : c->pmin;
     return l;
+}
+
+/* The guards of the case, behind the points; returns their number. */
+static ptrdiff_t add_guards(const struct pm_case *c, enum pm_form form, struct pm_load *set)
+{
+    unsigned char seen[PM_MAX_CHAMBERS] = {0};
+    ptrdiff_t n = 0;
+
+    if (form != c->form)
+        return 0;
+    for (ptrdiff_t r = 0; r < c->nchambers && c->gap_min > 0; r++) {
+        if (seen[r])
+            continue;
+        set[n] = guard(c, form, r);
+        for (ptrdiff_t g = 1; g < c->symmetry.nops && !c->full_set; g++) {
+            const int to = c->symmetry.chamber[g][r];
+            if (pm_load_symmetry(c, g) && to != r && !seen[to]) {
+                seen[to] = 1;
+                set[n].multiplicity++;
+            }
+        }
+        n++;
+    }
+    if (c->amplification_max > 0 || c->gap_min > 0)
+        set[n++] = guard(c, form, -1);
+    return n;
 }
 
 enum pm_status pm_load_set(const struct pm_case *c, enum pm_form form, struct pm_load **loads,
@@ -222,15 +249,14 @@ enum pm_status pm_load_set(const struct pm_case *c, enum pm_form form, struct pm
     if (rule == NULL)
         PM_TRY(pm_fail(err, PM_SYSTEM, "out of memory"));
     PM_TRY(PM_NEW(seen, size, err));
-    PM_TRY(PM_NEW(set, size + 1, err));
+    PM_TRY(PM_NEW(set, size + c->nchambers + 1, err));
     for (ptrdiff_t i = 0; i < size; i++) {
         if (seen[i])
             continue;
         const struct point q = full_point(c, form, i);
         set[count++] = make_load(c, &q, take_orbit(c, form, i, seen), rule);
     }
-    if (c->amplification_max > 0 && form == c->form)
-        set[count++] = guard(c, form);
+    count += add_guards(c, form, set + count);
     *loads = set;
     *n = count;
     set = NULL;

@@ -13,8 +13,10 @@
  * the whole measure vanish on symmetric designs; it is left out, the remaining ones are used. The
  * manifold measure is even under all. A weight must be kept, too. c->full_set: none is used.
  *
- * The form of the case has a guard as its last point where amplification_max is set: all pressures
- * at pmax, without weight. There a robot loses its stability first, and no other point sees it. */
+ * The form of the case ends with guards, points without weight that no other one sees. Where
+ * gap_min is set: each chamber alone at pmax, where a robot bends most and comes closest to itself
+ * (one of every orbit). Where that or amplification_max is set, last: all pressures at pmax, where
+ * a robot loses its stability first. */
 #ifndef PM_LOADS_H
 #define PM_LOADS_H
 
@@ -27,7 +29,7 @@ struct pm_load {
     int sign; /* boundary form: +1 on p_r = pmax, -1 on p_r = pmin (2R: +1 where the path runs with
                  rising pressure); volume form: +1 */
     double weight; /* tau = multiplicity * quadrature weight [(p/mu)^(n-1) or (p/mu)^n, 2R: p/mu];
-                      0: the guard */
+                      0: a guard */
     int multiplicity; /* points of the full set that this one stands for */
 };
 

@@ -105,14 +105,16 @@ struct pm_case {
     int taylor;   /* 1: 3R by the field of the Taylor series, 0: by the exact one */
     struct pm_weight weight;
     /* [mesh] */
-    double mesh_size; /* wanted edge length [mm] */
-    long mesh_layers; /* edges through a wall, at least */
+    double mesh_size;  /* wanted edge length [mm] */
+    double mesh_crest; /* edges of the mesh are at most this times the radius of curvature [1] */
+    long mesh_layers;  /* edges through a wall, at least */
     enum pm_extension_kind extension;
     /* [constraints] */
     double wall_min;          /* d_min [mm] */
     double void_min;          /* least width of grooves and cavities [mm] */
     double curvature_max;     /* C_max [1/mm] */
     int contact_rejects;      /* trials whose states pierce themselves */
+    double gap_min;           /* air that states are kept open to [mm], 0: as they come */
     double amplification_max; /* of dU/dp at one point over the mean, 0: none [1] */
     double cap_min;           /* chambers stay this far from the planes z = 0 and z = H [mm] */
     enum pm_domain domain;    /* where the body stays, between the planes z = 0 and z = H */

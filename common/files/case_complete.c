@@ -439,6 +439,14 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
     c->contact_rejects = strcmp(raw->contact, "reject") == 0;
     if (!c->contact_rejects && strcmp(raw->contact, "ignore") != 0)
         PM_TRY(bad_word(name, "contact", raw->contact, "ignore or reject", err));
+    if (isnan(c->gap_min))
+        c->gap_min = c->contact_rejects ? 0.3 * c->wall_min : 0;
+    else if (c->gap_min > 0 && !c->contact_rejects)
+        PM_TRY(
+            pm_fail(err, PM_INPUT,
+                    "cannot use '%s': gap_min in section '[constraints]' is %g, expected 0 where "
+                    "contact is not reject",
+                    name, c->gap_min));
     if (c->radius > c->radius_max)
         PM_TRY(pm_fail(err, PM_INPUT,
                        "cannot use '%s': radius in section '[optimisation]' is %g, expected "

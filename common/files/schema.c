@@ -97,6 +97,7 @@ static const struct pm_item table[] = {
     {"state", "/solve/warm", I64, "", "1", "1: started from a guess", 1},
     {"state", "/contact/intersections", I64, "", "1", "pairs of boundary faces that pierce each other in the deformed body, or a symmetry plane", 1},
     {"state", "/contact/gap", D, "", "mm", "least distance of boundaries that face each other through air, 0 where they pierce, -1 where beyond 1/20 of the body", 1},
+    {"state", "/contact/closeness", D, "", "1", "closeness G of boundaries that face each other within gap_min", 1},
     {"state", "/contact/at", D, "3", "mm", "where, in the deformed body", 1},
     {"state", "/contact/surface", I32, "2", "1", "the two boundaries there, as in /mesh/tri_tag", 1},
 
@@ -112,6 +113,7 @@ static const struct pm_item table[] = {
     {"path", "/path/factorisations", I64, "np", "1", "factorisations", 1},
     {"path", "/path/intersections", I64, "np", "1", "pairs of boundary faces that pierce each other", 1},
     {"path", "/path/gap", D, "np", "mm", "least distance across air, 0 where faces pierce, -1 where wide", 1},
+    {"path", "/path/closeness", D, "np", "1", "closeness G of boundaries that face each other within gap_min", 1},
     {"path", "/path/displacement", D, "np nn 3", "mm", "nodal displacement", 1},
 
     {"path", "/inverse/dofs", I64, "nd", "1", "of invkin: components of the pose that are asked for, 1..6", 0},
@@ -131,8 +133,9 @@ static const struct pm_item table[] = {
     {"work", "/measure/form", I64, "", "1", "0 boundary form, 1 volume form", 1},
     {"work workspace", "/measure/orientation", D, "", "1", "sign sigma, frozen at the first design", 1},
     {"work", "/measure/value_other", D, "", "see /measure/unit", "measure by the other form, 0 if not computed", 1},
-    {"work", "/measure/objective", D, "", "see /measure/unit", "what is optimised: the measure, less where a point gives way more than amplification_max", 1},
+    {"work", "/measure/objective", D, "", "see /measure/unit", "what is optimised: the measure, less where a point gives way more than amplification_max or comes closer to itself than gap_min", 1},
     {"work", "/measure/amplification", D, "", "1", "largest |dU/dp| of a point over the geometric mean of all", 1},
+    {"work", "/measure/closeness", D, "", "1", "closeness G summed over all points of the full set", 1},
     {"work", "/measure/quadrature_error", D, "", "1", "relative difference of the forms, -1 if not known", 1},
     {"work workspace", "/measure/min_det", D, "", "1", "smallest signed det J over the points", 1},
     {"work workspace", "/measure/max_det", D, "", "1", "largest signed det J over the points", 1},
@@ -149,6 +152,8 @@ static const struct pm_item table[] = {
     {"work", "/point/dw_dJ", D, "ng 6 nc", "1", "derivative of the contribution", 1},
     {"work", "/point/intersections", I64, "ng", "1", "pairs of boundary faces that pierce each other", 1},
     {"work", "/point/gap", D, "ng", "mm", "least distance across air, 0 where faces pierce, -1 where wide", 1},
+    {"work", "/point/closeness", D, "ng", "1", "closeness G of boundaries that face each other within gap_min", 1},
+    {"work", "/point/dw_dG", D, "ng", "see /measure/unit", "derivative of the objective by it", 1},
 
     {"workspace", "/workspace/interval", D, "", "p/mu", "between samples", 1},
     {"workspace", "/workspace/value_polygon", D, "", "see /measure/unit", "measure of the polygon or polyhedron of the samples", 0},

@@ -31,6 +31,7 @@ static const struct scalar scalars[] = {
     {"/solve/warm", AT(warm), 0},
     {"/contact/intersections", AT(contact.intersections), 0},
     {"/contact/gap", AT(contact.gap), 1},
+    {"/contact/closeness", AT(contact.closeness), 1},
 };
 
 enum { NSCALARS = sizeof scalars / sizeof scalars[0] };

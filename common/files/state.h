@@ -9,6 +9,7 @@
 struct pm_self_contact {
     int64_t intersections; /* pairs of faces that pierce each other */
     double gap;            /* least distance across air [mm]: 0 where faces pierce, -1: wide */
+    double closeness;      /* G of geometry/closeness.h [1] */
     double at[3];          /* where, deformed [mm] */
     int32_t surface[2];    /* PM_FACE_* of the two faces there */
 };

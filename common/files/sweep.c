@@ -24,6 +24,7 @@ static const struct array arrays[] = {
     {"/path/factorisations", AT(factorisations), 1, 1},
     {"/path/intersections", AT(intersections), 1, 1},
     {"/path/gap", AT(gap), 1, 0},
+    {"/path/closeness", AT(closeness), 1, 0},
     {"/path/displacement", AT(displacement), 3, 0},
 };
 

@@ -19,6 +19,7 @@ struct pm_sweep {
     double *min_det_F; /*                                                        (np) */
     int64_t *factorisations; /* (np) */
     int64_t *intersections;  /* of the deformed boundary with itself                (np) */
+    double *closeness;       /* G of geometry/closeness.h                           (np) */
     double *gap;             /* least distance across air, -1: wide                 (np) [mm] */
     double
         *displacement; /* of the mesh's nodes                                 (np x nn x 3) [mm] */

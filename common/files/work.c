@@ -18,6 +18,7 @@ static const struct scalar scalars[] = {
     {"/measure/quadrature_error", AT(quadrature_error)},
     {"/measure/objective", AT(objective)},
     {"/measure/amplification", AT(amplification)},
+    {"/measure/closeness", AT(closeness)},
     {"/measure/min_det", AT(min_det)},
     {"/measure/max_det", AT(max_det)},
     {"/measure/sign_changes", AT(sign_changes)},
@@ -43,6 +44,8 @@ static enum pm_status read_points(struct pm_h5 *f, struct pm_work *w, struct pm_
     PM_TRY(pm_h5_get(f, "/point/dw_dJ", d, &w->dw_dJ, err));
     PM_TRY(pm_h5_get(f, "/point/intersections", d, &w->intersections, err));
     PM_TRY(pm_h5_get(f, "/point/gap", d, &w->gap, err));
+    PM_TRY(pm_h5_get(f, "/point/closeness", d, &w->closeness_at, err));
+    PM_TRY(pm_h5_get(f, "/point/dw_dG", d, &w->dw_dG, err));
     if (w->ng < 1 || w->nc < 1 || w->nc > PM_MAX_CHAMBERS)
         PM_TRY(pm_h5_refuse(f, err, "/point/pressure", "is %td x %td", w->ng, w->nc));
     if (w->form < 0 || w->form > 1)
@@ -109,6 +112,8 @@ enum pm_status pm_work_write(struct pm_h5 *f, const struct pm_work *w, struct pm
     PM_TRY(pm_h5_put(f, "/point/dw_dJ", jacobians, w->dw_dJ, err));
     PM_TRY(pm_h5_put(f, "/point/intersections", &w->ng, w->intersections, err));
     PM_TRY(pm_h5_put(f, "/point/gap", &w->ng, w->gap, err));
+    PM_TRY(pm_h5_put(f, "/point/closeness", &w->ng, w->closeness_at, err));
+    PM_TRY(pm_h5_put(f, "/point/dw_dG", &w->ng, w->dw_dG, err));
 done:
     return status;
 }
@@ -124,6 +129,8 @@ void pm_work_release(struct pm_work *w)
     pm_free(w->dw_dJ);
     pm_free(w->intersections);
     pm_free(w->gap);
+    pm_free(w->closeness_at);
+    pm_free(w->dw_dG);
     pm_case_release(&w->pcase);
     *w = (struct pm_work){.ng = 0};
 }

@@ -9,8 +9,9 @@ struct pm_work {
     struct pm_case pcase;
     char failure[512];    /* "" or the failure of a state */
     double value;         /* the measure T = sum_g w_g */
-    double objective;     /* f T, what is optimised (amplification.h) */
+    double objective;     /* f h T, what is optimised (amplification.h, closeness.h) */
     double amplification; /* largest of the points */
+    double closeness;     /* sum of the points of the full set (closeness.h) [1] */
     char name[16], unit[16];
     int64_t form;
     double orientation;      /* sigma = +1 or -1, frozen at the first design */
@@ -32,6 +33,8 @@ struct pm_work {
     double *dw_dJ;                 /* (ng x 6 x nc) */
     int64_t *intersections;        /* of the deformed boundary with itself (ng) */
     double *gap;                   /* least distance across air, -1: wide (ng) [mm] */
+    double *closeness_at;          /* G (ng) */
+    double *dw_dG;                 /* derivative of the objective by it (ng) */
 };
 
 enum pm_status pm_work_load(const char *path, int allow_failure, struct pm_work *w,

@@ -5,111 +5,24 @@
 #include <string.h>
 
 #include "common/base/log.h"
-#include "common/base/memory.h"
+#include "common/geometry/closeness.h"
 #include "common/geometry/collide.h"
+#include "common/geometry/skin.h"
 
 /* Of the cones in which two points face each other. */
 static const double COSINE = 0.8;
 /* Largest gap, in parts of the body's diagonal. */
 static const double WIDE = 0.05;
-static const int PART[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
-
-struct plane {
-    int32_t tag;
-    int axis;
-    double at, side; /* coordinate [mm]; the body is where side * (x - at) > 0 */
-};
-
-/* The boundary but the symmetry planes, as flat triangles. */
-struct skin {
-    const struct pm_mesh *m;
-    ptrdiff_t nt, parts; /* triangles, of one face */
-    int32_t *tri;        /* (nt x 3) */
-    int32_t *tag;        /* of a triangle                      (nt) */
-    double *y;           /* positions                          (nn x 3) [mm] */
-    double *facet;       /* of the triangles, unit             (nt x 3) */
-    struct pm_boxes *boxes;
-    struct plane plane[3];
-    int nplanes;
-};
-
-static void skin_release(struct skin *s)
-{
-    pm_free(s->tri);
-    pm_free(s->tag);
-    pm_free(s->y);
-    pm_free(s->facet);
-    pm_boxes_free(s->boxes);
-}
-
-static void add_plane(struct skin *s, ptrdiff_t f)
-{
-    const struct pm_mesh *m = s->m;
-    struct plane p = {.tag = m->tri_tag[f], .axis = PM_FACE_SYM_X - m->tri_tag[f]};
-    for (int k = 0; k < s->nplanes; k++)
-        if (s->plane[k].tag == p.tag)
-            return;
-    p.at = m->x[3 * (ptrdiff_t)m->tri[m->npf * f] + p.axis];
-    double sum = 0;
-    for (ptrdiff_t a = 0; a < m->nn; a++)
-        sum += m->x[3 * a + p.axis] - p.at;
-    p.side = sum < 0 ? -1 : 1;
-    s->plane[s->nplanes++] = p;
-}
-
-static enum pm_status skin_new(const struct pm_mesh *m, struct skin *s, struct pm_err *err)
-{
-    enum pm_status status;
-    *s = (struct skin){.m = m, .parts = m->npf == 6 ? 4 : 1};
-    PM_TRY(PM_NEW(s->tri, 3 * s->parts * m->nf, err));
-    PM_TRY(PM_NEW(s->tag, s->parts * m->nf, err));
-    PM_TRY(PM_NEW(s->facet, 3 * s->parts * m->nf, err));
-    PM_TRY(PM_NEW(s->y, 3 * m->nn, err));
-    for (ptrdiff_t f = 0; f < m->nf; f++) {
-        const int32_t *node = m->tri + m->npf * f, tag = m->tri_tag[f];
-        if (tag <= PM_FACE_SYM_X) {
-            add_plane(s, f);
-            continue;
-        }
-        for (ptrdiff_t k = 0; k < s->parts; k++, s->nt++) {
-            s->tag[s->nt] = tag;
-            for (int v = 0; v < 3; v++)
-                s->tri[3 * s->nt + v] = node[s->parts == 4 ? PART[k][v] : v];
-        }
-    }
-done:
-    return status;
-}
-
-/* Positions x + u, normals, boxes. */
-static enum pm_status skin_place(struct skin *s, const double *u, struct pm_err *err)
-{
-    for (ptrdiff_t i = 0; i < 3 * s->m->nn; i++)
-        s->y[i] = s->m->x[i] + u[i];
-    for (ptrdiff_t t = 0; t < s->nt; t++) {
-        const int32_t *v = s->tri + 3 * t;
-        const double *a = s->y + 3 * v[0], *b = s->y + 3 * v[1], *c = s->y + 3 * v[2];
-        double *n = s->facet + 3 * t;
-        for (int i = 0; i < 3; i++) {
-            const int j = (i + 1) % 3, k = (i + 2) % 3;
-            n[i] = (b[j] - a[j]) * (c[k] - a[k]) - (b[k] - a[k]) * (c[j] - a[j]);
-        }
-        const double l = sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-        for (int i = 0; i < 3 && l > 0; i++)
-            n[i] /= l;
-    }
-    return pm_collide_boxes(s->y, s->nt, s->tri, s->facet, &s->boxes, err);
-}
 
 struct look {
-    const struct skin *s;
+    const struct pm_skin *s;
     struct pm_self_contact *c;
 };
 
 /* From the corners of triangle a to triangle b. */
 static double look_across(const struct look *l, int32_t a, int32_t b, double best)
 {
-    const struct skin *s = l->s;
+    const struct pm_skin *s = l->s;
     const int32_t *v = s->tri + 3 * (ptrdiff_t)a, *w = s->tri + 3 * (ptrdiff_t)b;
     const double *n = s->facet + 3 * (ptrdiff_t)a, *m = s->facet + 3 * (ptrdiff_t)b;
     for (int k = 0; k < 3; k++) {
@@ -139,9 +52,9 @@ static double look_both(void *data, int32_t a, int32_t b, double best)
 }
 
 /* The plane and the image beyond, which corners face. */
-static double look_at_plane(const struct look *l, const struct plane *p, double best)
+static double look_at_plane(const struct look *l, const struct pm_skin_plane *p, double best)
 {
-    const struct skin *s = l->s;
+    const struct pm_skin *s = l->s;
     for (ptrdiff_t t = 0; t < s->nt; t++)
         for (int k = 0; k < 3 && -p->side * s->facet[3 * t + p->axis] >= COSINE; k++) {
             const double *x = s->y + 3 * s->tri[3 * t + k];
@@ -170,7 +83,7 @@ static double diagonal(const struct pm_mesh *m)
     return sqrt(sum);
 }
 
-static void find_gap(const struct skin *s, struct pm_self_contact *c)
+static void find_gap(const struct pm_skin *s, struct pm_self_contact *c)
 {
     struct look l = {s, c};
     const double wide = WIDE * diagonal(s->m);
@@ -181,7 +94,7 @@ static void find_gap(const struct skin *s, struct pm_self_contact *c)
 }
 
 /* A face that reaches through a plane: further than rounding of a node that is held on it. */
-static int beyond(const struct skin *s, const struct plane *p, ptrdiff_t t, double at[3])
+static int beyond(const struct pm_skin *s, const struct pm_skin_plane *p, ptrdiff_t t, double at[3])
 {
     for (int k = 0; k < 3; k++) {
         const double *y = s->y + 3 * (ptrdiff_t)s->tri[3 * t + k];
@@ -194,7 +107,7 @@ static int beyond(const struct skin *s, const struct plane *p, ptrdiff_t t, doub
     return 0;
 }
 
-static void find_mirrored(const struct skin *s, struct pm_self_contact *c)
+static void find_mirrored(const struct pm_skin *s, struct pm_self_contact *c)
 {
     for (int k = 0; k < s->nplanes; k++)
         for (ptrdiff_t f = 0; f < s->nt / s->parts; f++) {
@@ -214,12 +127,11 @@ enum pm_status pm_contact_find(const struct pm_mesh *m, const double *u, struct 
                                struct pm_err *err)
 {
     enum pm_status status;
-    struct skin s;
+    struct pm_skin s;
     struct pm_contact pierced;
 
     *c = (struct pm_self_contact){.gap = 0};
-    PM_TRY(skin_new(m, &s, err));
-    PM_TRY(skin_place(&s, u, err));
+    PM_TRY(pm_skin_new(m, u, &s, err));
     PM_TRY(pm_collide_faces(s.boxes, s.y, s.tri, s.parts, &pierced, err));
     if (pierced.pairs > 0) {
         c->intersections = pierced.pairs;
@@ -230,8 +142,9 @@ enum pm_status pm_contact_find(const struct pm_mesh *m, const double *u, struct 
     find_mirrored(&s, c);
     if (c->intersections == 0)
         find_gap(&s, c);
+    PM_TRY(pm_closeness(m, u, &c->closeness, NULL, err));
 done:
-    skin_release(&s);
+    pm_skin_release(&s);
     return status;
 }
 

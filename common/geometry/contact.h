@@ -12,7 +12,8 @@
  * point of a triangle with normal m that face each other through air: d.n >= 0.8 |d| > 0 and
  * -d.m >= 0.8 |d|; across a symmetry plane twice the distance of a corner that faces it. The cone
  * leaves out what is merely near along the surface; in a round tube or groove of radius r the gap
- * is 1.6 r. Gaps beyond 1/20 of the diagonal of the body are not looked for. About nf log nf. */
+ * is 1.6 r. The closeness G of closeness.h is found too. Gaps beyond 1/20 of the diagonal of the
+ * body are not looked for. About nf log nf. */
 enum pm_status pm_contact_find(const struct pm_mesh *m, const double *u, struct pm_self_contact *c,
                                struct pm_err *err);
 /* Warns, in one line, of intersections; says at -v how near it is. */

@@ -269,6 +269,11 @@ static enum pm_status solve_second(struct adjoint *A, const struct pm_objective 
                 for (ptrdiff_t i = 0; i < nq; i++)
                     rhs[i] -= w[k].V[r] * work[i];
             }
+        if (w[k].x != NULL) {
+            pm_model_reduce(m, A->at->c, w[k].x, work);
+            for (ptrdiff_t i = 0; i < m->nq; i++)
+                rhs[i] -= work[i];
+        }
         for (ptrdiff_t c = A->first[k]; c < A->first[k + 1]; c++) {
             prepare(A, &A->col[c], A->v + c * nq, A->at->Jq + A->col[c].s * nq, field);
             subtract_second_order(A, &A->col[c], work, rhs);
@@ -351,6 +356,8 @@ static enum pm_status shape_of(const struct adjoint *A, ptrdiff_t k, const struc
     }
     for (ptrdiff_t r = 0; r < m->mesh->nc && A->dV != NULL; r++)
         add(m, w->V[r], A->dV + 3 * r * m->nn, s);
+    if (w->x != NULL)
+        add(m, 1.0, w->x, s);
     pm_model_shape(m, at->c, g, n, n > 0 ? col[0].xv : NULL, n > 0 ? col[0].xJ : NULL, D);
     add_explicit(A, k, s, m->tail > 0 ? v2 + m->nq - 6 : none, D, D_ref);
     return PM_OK;

@@ -13,14 +13,16 @@ enum pm_status pm_jacobian(struct pm_model *m, const struct pm_config *c, double
 enum pm_status pm_compliance(const struct pm_model *m, const struct pm_config *c, const double *Jq,
                              double *C, struct pm_err *err);
 
-/* A function w(U, J, V, C) of the pose, its Jacobian, the volumes V_r of the chambers and their
- * compliance C_rs = dV_r/dp_s, by its partial derivatives; derivatives by pressure are per `scale`.
+/* A function w(U, J, V, C, x) of the pose, its Jacobian, the volumes V_r of the chambers, their
+ * compliance C_rs = dV_r/dp_s and the deformed nodes x, by its partial derivatives; derivatives by
+ * pressure are per `scale`.
  */
 struct pm_objective {
     double U[6];
     double J[6][PM_MAX_CHAMBERS];
     double V[PM_MAX_CHAMBERS];
     double C[PM_MAX_CHAMBERS][PM_MAX_CHAMBERS];
+    const double *x; /* by the positions of the nodes (nn x 3), NULL: none; domain form only */
 };
 
 /* An equilibrium: p [MPa], f nodal forces at c, Jq as from pm_jacobian; the model holds the factor

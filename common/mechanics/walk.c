@@ -86,6 +86,7 @@ enum pm_status pm_walk_record(const struct pm_walk *w, struct pm_sweep *s, ptrdi
     PM_TRY(pm_contact_find(&s->mesh, s->displacement + 3 * nn * i, &contact, err));
     s->intersections[i] = contact.intersections;
     s->gap[i] = contact.gap;
+    s->closeness[i] = contact.closeness;
 done:
     return status;
 }

@@ -117,7 +117,9 @@ static enum pm_status save(const struct pm_surfaces *s, double value, struct pm_
                         .dw_dU = point,
                         .dw_dJ = point,
                         .intersections = &zero,
-                        .gap = &wide};
+                        .gap = &wide,
+                        .closeness_at = (double[]){0},
+                        .dw_dG = (double[]){0}};
 
     PM_TRY(pm_h5_create(paths[0], "work", &common, NULL, &f, err));
     PM_TRY(pm_work_write(f, &w, err));

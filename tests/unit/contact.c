@@ -1,4 +1,5 @@
 /* Self-contact: searches against brute force, a groove that closes, a sphere, a symmetry plane. */
+#include "common/geometry/closeness.h"
 #include "common/geometry/contact.h"
 
 #include "common/geometry/collide.h"
@@ -153,6 +154,19 @@ static struct pm_self_contact closed(struct groove *g, double close)
     return c;
 }
 
+/* Half of it: the plane x = 0 takes the part of the other flank. */
+static void halve(struct groove *g)
+{
+    for (ptrdiff_t f = 0; f < g->mesh.nf; f++) {
+        const int32_t *v = g->tri + 3 * f;
+        if (fmax(g->x[3 * v[0]], fmax(g->x[3 * v[1]], g->x[3 * v[2]])) < 0.5)
+            g->tag[f] = PM_FACE_SYM_X;
+    }
+    for (ptrdiff_t a = 0; a < g->mesh.nn; a++)
+        if (g->x[3 * a] < 0)
+            g->x[3 * a] = 0;
+}
+
 static void check_groove(void)
 {
     static struct groove g;
@@ -165,15 +179,7 @@ static void check_groove(void)
     ok(c.intersections > 0 && c.gap <= 0, "%lld pairs intersect, gap %g",
        (long long)c.intersections, c.gap);
     ok(fabs(c.at[0]) < 0.1 && c.at[2] > 4, "near the top (%g, %g, %g)", c.at[0], c.at[1], c.at[2]);
-    /* Half of it: the plane x = 0 takes the part of the other flank. */
-    for (ptrdiff_t f = 0; f < g.mesh.nf; f++) {
-        const int32_t *v = g.tri + 3 * f;
-        if (fmax(g.x[3 * v[0]], fmax(g.x[3 * v[1]], g.x[3 * v[2]])) < 0.5)
-            g.tag[f] = PM_FACE_SYM_X;
-    }
-    for (ptrdiff_t a = 0; a < g.mesh.nn; a++)
-        if (g.x[3 * a] < 0)
-            g.x[3 * a] = 0;
+    halve(&g);
     c = closed(&g, 0.8);
     near_abs("half of it: gap to the mirror image", c.gap, 0.4, 1e-14);
     ok(c.intersections == 0 && c.surface[0] == 0 && c.surface[1] == PM_FACE_SYM_X,
@@ -181,6 +187,74 @@ static void check_groove(void)
     c = closed(&g, 1.1);
     ok(c.intersections > 0 && c.surface[1] == PM_FACE_SYM_X && c.gap <= 0,
        "half of it: %lld faces reach through the plane", (long long)c.intersections);
+}
+
+static double close_by(const struct groove *g, double gap_min, double *gradient)
+{
+    struct pm_mesh m = g->mesh;
+    struct pm_err err = {.status = PM_OK};
+    double G = -1;
+    m.pcase.gap_min = gap_min;
+    ok(pm_closeness(&m, g->u, &G, gradient, &err) == PM_OK, "closeness within %g", gap_min);
+    return G;
+}
+
+/* Derivatives of the closeness against differences, node by node. */
+static void check_closeness_gradient(struct groove *g, double gap_min, const char *text)
+{
+    static double gradient[3 * MOST * (ALONG + 1)], unused[3 * MOST * (ALONG + 1)];
+    double worst = 0, largest = 0;
+    const double h = 1e-5;
+    struct pm_mesh m = g->mesh;
+    struct pm_err err = {.status = PM_OK};
+    m.pcase.gap_min = gap_min;
+    close_by(g, gap_min, gradient);
+    for (ptrdiff_t i = 0; i < 3 * m.nn; i++) {
+        const double kept = g->u[i];
+        double G[2] = {0};
+        for (int k = 0; k < 2; k++) {
+            g->u[i] = kept + (k == 0 ? h : -h);
+            if (pm_closeness(&m, g->u, &G[k], unused, &err) != PM_OK)
+                ok(0, "%s", err.text);
+        }
+        g->u[i] = kept;
+        worst = fmax(worst, fabs((G[0] - G[1]) / (2 * h) - gradient[i]));
+        largest = fmax(largest, fabs(gradient[i]));
+    }
+    /* truncation h^2 / gap^2 */
+    ok(worst < 1e-7 * largest && largest > 1, "%s: derivative off by %.1e of %.3g", text, worst,
+       largest);
+}
+
+static void rough(struct groove *g)
+{
+    uint32_t seed = 11;
+    for (ptrdiff_t a = 0; a < g->mesh.nn; a++)
+        for (int i = 0; i < 3; i++)
+            g->u[3 * a + i] += 0.1 * (noise(&seed) - 0.5);
+}
+
+static void check_closeness(void)
+{
+    static struct groove g;
+    make_groove(&g);
+    /* flanks of 5 x 4, 2 apart; the floor sees nothing */
+    const double x = 2.0 / 3, b = -(1 - x) * (1 - x) * log(x);
+    near_rel("parallel flanks", close_by(&g, 3, NULL), 2 * 20.0 / 9 * b, 1e-12);
+    near_abs("wide flanks", close_by(&g, 2, NULL), 0, 0);
+    near_abs("not asked for", close_by(&g, 0, NULL), 0, 0);
+    closed(&g, 0.8);
+    rough(&g);
+    check_closeness_gradient(&g, 1.5, "rough wedge");
+    halve(&g);
+    memset(g.u, 0, sizeof g.u);
+    near_rel("half of them", close_by(&g, 3, NULL), 2 * 20.0 / 9 * b, 1e-12);
+    closed(&g, 0.8);
+    rough(&g);
+    for (ptrdiff_t a = 0; a < g.mesh.nn; a++)
+        if (!(fabs(g.x[3 * a]) > 0))
+            g.u[3 * a] = 0;
+    check_closeness_gradient(&g, 1.5, "half of a rough wedge");
 }
 
 /* A spherical chamber (radius 3) in a sphere, blown up by half. */
@@ -241,6 +315,7 @@ int main(void)
     check_soup(&err);
     check_nearest(&err);
     check_groove();
+    check_closeness();
     check_sphere(&err);
     return tap_done();
 }

@@ -152,7 +152,7 @@ static void check_solid_angle(void)
     pm_case_release(&faces);
 }
 
-/* The form of the case ends with all pressures at pmax, without weight. */
+/* The form of the case ends with each chamber alone and all at pmax, without weight. */
 static void check_guard(void)
 {
     struct pm_case c = {0};
@@ -175,6 +175,16 @@ static void check_guard(void)
                    loads[n - 1].p[1] == c.pmax,
                "all at pmax, without weight");
         pm_free(loads);
+        c.gap_min = 1;
+        ok(pm_load_set(&c, (enum pm_form)f, &loads, &n, &err) == PM_OK &&
+               n == without + 2 * (f == PM_FORM_BOUNDARY),
+           "%td points, %td with those of gap_min", without, n);
+        if (f == PM_FORM_BOUNDARY)
+            ok(loads[n - 2].weight == 0 && loads[n - 2].multiplicity == 2 &&
+                   loads[n - 2].p[0] == c.pmax && loads[n - 2].p[1] == c.pmin,
+               "one chamber at pmax for both");
+        pm_free(loads);
+        c.gap_min = 0;
     }
     pm_case_release(&c);
 }

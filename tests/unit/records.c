@@ -102,7 +102,8 @@ static void test_state(const char *path)
            strcmp(a.element, b.element) == 0,
        "scalars come back");
     ok(a.contact.intersections == b.contact.intersections && a.contact.gap == b.contact.gap &&
-           SAME(a.contact.at, b.contact.at, 3) && SAME(a.contact.surface, b.contact.surface, 2),
+           a.contact.closeness == b.contact.closeness && SAME(a.contact.at, b.contact.at, 3) &&
+           SAME(a.contact.surface, b.contact.surface, 2),
        "self-contact comes back");
     pm_state_release(&b);
     struct pm_mesh m;
@@ -132,9 +133,9 @@ static void test_sweep(const char *path)
        "fields come back");
     ok(SAME(a.reached, b.reached, 3) && SAME(a.factorisations, b.factorisations, 3) &&
            SAME(a.intersections, b.intersections, 3) && SAME(a.gap, b.gap, 3) &&
-           SAME(a.energy, b.energy, 3) && SAME(a.residual, b.residual, 3) &&
-           SAME(a.min_det_F, b.min_det_F, 3) && strcmp(a.reason, b.reason) == 0 &&
-           strcmp(a.element, b.element) == 0,
+           SAME(a.closeness, b.closeness, 3) && SAME(a.energy, b.energy, 3) &&
+           SAME(a.residual, b.residual, 3) && SAME(a.min_det_F, b.min_det_F, 3) &&
+           strcmp(a.reason, b.reason) == 0 && strcmp(a.element, b.element) == 0,
        "points come back");
     pm_sweep_release(&a);
     pm_sweep_release(&b);
@@ -158,6 +159,7 @@ static void test_work_and_sens(const char *path)
            SAME(a.J, b.J, 6 * a.ng * a.nc) && SAME(a.w, b.w, a.ng) &&
            SAME(a.dw_dU, b.dw_dU, 6 * a.ng) && SAME(a.dw_dJ, b.dw_dJ, 6 * a.ng * a.nc) &&
            SAME(a.intersections, b.intersections, a.ng) && SAME(a.gap, b.gap, a.ng) &&
+           SAME(a.closeness_at, b.closeness_at, a.ng) && SAME(a.dw_dG, b.dw_dG, a.ng) &&
            SAME(a.pressure, b.pressure, a.ng * a.nc),
        "points come back");
     pm_work_release(&a);

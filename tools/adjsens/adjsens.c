@@ -6,6 +6,7 @@
 #include "common/base/log.h"
 #include "common/base/memory.h"
 #include "common/files/sens.h"
+#include "common/geometry/closeness.h"
 #include "common/mechanics/adjoint.h"
 #include "common/mechanics/restore.h"
 
@@ -116,6 +117,8 @@ static void identities(const struct adjsens_point *pt, const double *D, const do
                 want[i] += v[j] * g[k] - v[k] * g[j];
                 Euler += l == 0 ? g[i] * v[i] : 0.0;
             }
+    for (ptrdiff_t i = 0; i < 3 * mesh->nn && pt->near != NULL; i++)
+        Euler += pt->near[i] * (mesh->x[i] + pt->state.u[i]);
     const unsigned planes = planes_of(mesh);
     unsigned turned = 0; /* turns about the normal of the only plane */
     for (unsigned i = 0; i < 3; i++)
@@ -147,7 +150,12 @@ done:
     return status;
 }
 
-/* A guard within its limit has no part in the objective. */
+static int is_close(const struct adjsens_point *pt)
+{
+    return pt->work.dw_dG[pt->row] != 0 && pt->work.closeness_at[pt->row] > 0;
+}
+
+/* A guard within its limits has no part in the objective. */
 static int without_weight(const struct adjsens_point *pt)
 {
     const ptrdiff_t n = 6 * pt->state.mesh.nc;
@@ -157,7 +165,7 @@ static int without_weight(const struct adjsens_point *pt)
     for (ptrdiff_t i = 0; i < n; i++)
         if (pt->work.dw_dJ[n * pt->row + i] != 0)
             return 0;
-    return 1;
+    return !is_close(pt);
 }
 
 static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens_point *pt,
@@ -168,13 +176,24 @@ static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens
     const struct pm_adjoint_at at = adjsens_at(pt);
     struct pm_objective w = {.V = {0}};
     ptrdiff_t nc = mesh->nc;
-    double *D = NULL, D_ref[3];
+    double *D = NULL, D_ref[3], G;
     PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
     PM_TRY(PM_NEW(D, 3 * pt->m->nn, err));
     for (ptrdiff_t l = 0; l < 6; l++) {
         w.U[l] = pt->work.dw_dU[6 * pt->row + l];
         for (ptrdiff_t r = 0; r < nc; r++)
             w.J[l][r] = pt->work.dw_dJ[6 * nc * pt->row + nc * l + r];
+    }
+    if (is_close(pt) && o->form == PM_SHAPE_BOUNDARY)
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "the body comes closer to itself than gap_min: the boundary form does not "
+                       "know of that, expected gap_min = 0"));
+    if (is_close(pt)) {
+        PM_TRY(PM_NEW(pt->near, 3 * pt->m->nn, err));
+        PM_TRY(pm_closeness(mesh, pt->state.u, &G, pt->near, err));
+        for (ptrdiff_t i = 0; i < 3 * pt->m->nn; i++)
+            pt->near[i] *= pt->work.dw_dG[pt->row];
+        w.x = pt->near;
     }
     PM_TRY(pm_adjoint(&at, 1, &w, o->form, D, D_ref, err));
     if (o->form == PM_SHAPE_DOMAIN) {
@@ -225,6 +244,7 @@ static void release(struct adjsens_point *pt)
     pm_free(pt->f);
     pm_free(pt->Jq);
     pm_free(pt->J);
+    pm_free(pt->near);
     pm_state_release(&pt->state);
     pm_work_release(&pt->work);
 }

@@ -28,6 +28,7 @@ struct adjsens_point {
     struct pm_config c;
     struct pm_extension *extension;
     double *p, *f, *Jq, *J; /* [MPa] (nc); (nn x 3); (nc x nq); (6 x nc) per unit of p/mu */
+    double *near;           /* derivative of the objective by the closeness of the nodes (nn x 3) */
 };
 
 enum pm_status adjsens_run(const struct adjsens_opts *opts, const struct pm_common *common,

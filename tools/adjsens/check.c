@@ -7,8 +7,10 @@
 #include "common/actuation/amplification.h"
 #include "common/actuation/measure.h"
 #include "common/base/memory.h"
+#include "common/geometry/closeness.h"
 #include "common/mechanics/adjoint.h"
 #include "common/mechanics/equilibrium.h"
+#include "common/mechanics/restore.h"
 #include "tools/adjsens/adjsens.h"
 
 /* Largest relative errors that pass: in random directions, by one control point. */
@@ -19,7 +21,9 @@ struct probe {
     struct adjsens_point *pt;
     struct pm_load load;
     double sigma_weight; /* of the point's contribution */
-    double *x0, *dx; /* node positions at the design and their rate along the direction (nn x 3) */
+    double closeness_slope;
+    double *x0, *dx,
+        *u; /* node positions at the design, their rate along the direction, work (nn x 3) */
 };
 
 /* The objective at x0 + s dx, all other points as they are: solved from the state as guess. */
@@ -34,7 +38,7 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *objecti
     struct pm_config c = {0};
     struct pm_solve_report report;
     struct pm_solve_options o = pm_solve_default;
-    double *f = NULL, *V = NULL, *Jq = NULL, *J = NULL, *dJ = NULL, dU[6], w, most;
+    double *f = NULL, *V = NULL, *Jq = NULL, *J = NULL, *dJ = NULL, dU[6], w, most, G;
     double *own = pt->work.J + 6 * nc * pt->row;
     o.tolerance = 2e-10; /* a little above the rounding floor of the residual */
     for (ptrdiff_t k = 0; k < 3 * mesh->nn; k++)
@@ -54,7 +58,11 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *objecti
     const double value = pt->work.value - pt->work.w[pt->row] + pr->sigma_weight * w;
     memcpy(dJ, own, (size_t)(6 * nc) * sizeof *dJ);
     memcpy(own, J, (size_t)(6 * nc) * sizeof *own);
-    *objective = value * pm_amplification(&mesh->pcase, pt->work.ng, pt->work.J, &most, NULL);
+    pm_config_displacement(m, &c, pr->u);
+    PM_TRY(pm_closeness(mesh, pr->u, &G, NULL, err));
+    *objective = value * pm_amplification(&mesh->pcase, pt->work.ng, pt->work.J, &most, NULL) *
+                 exp(pr->closeness_slope * (G - pt->work.closeness_at[pt->row])) *
+                 pm_closeness_factor(pt->work.closeness);
     memcpy(own, dJ, (size_t)(6 * nc) * sizeof *own);
 done:
     memcpy(mesh->x, pr->x0, 3 * (size_t)mesh->nn * sizeof *mesh->x);
@@ -211,6 +219,8 @@ static enum pm_status prepare(struct adjsens_point *pt, struct probe *pr, struct
     }
     pr->load = set[pt->state.load];
     pr->sigma_weight = pt->work.orientation * pr->load.weight;
+    pr->closeness_slope = pm_closeness_slope(pr->load.multiplicity);
+    PM_TRY(PM_NEW(pr->u, 3 * pt->state.mesh.nn, err));
     PM_TRY(PM_NEW(pr->x0, 3 * pt->state.mesh.nn, err));
     PM_TRY(PM_NEW(pr->dx, 3 * pt->state.mesh.nn, err));
     memcpy(pr->x0, pt->state.mesh.x, 3 * (size_t)pt->state.mesh.nn * sizeof *pr->x0);
@@ -247,5 +257,6 @@ done:
     pm_free(d);
     pm_free(pr.x0);
     pm_free(pr.dx);
+    pm_free(pr.u);
     return status;
 }

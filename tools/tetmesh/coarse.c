@@ -11,7 +11,7 @@ static enum pm_status wanted(const struct pm_surfaces *s, double size, const str
                              double *h, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    const struct pm_remesh_opts o = pm_shell_edges(size);
+    const struct pm_remesh_opts o = pm_shell_edges(size, s->pcase.mesh_crest);
     struct pm_map *map[PM_MAX_CHAMBERS + 1] = {NULL};
     struct pm_basis work = {0};
     double r_a[6], r_ab[9];

@@ -28,7 +28,7 @@ struct pm_shell_opts {
 };
 
 /* Edges of `size` mm, shorter where curved. */
-struct pm_remesh_opts pm_shell_edges(double size);
+struct pm_remesh_opts pm_shell_edges(double size, double crest);
 /* Meshes all surfaces on the positive sides of the planes of y with edges of about `size` mm
  * (shorter where curved) and the planar caps at the rims of the exterior, which come from gmsh. The
  * faces on the planes are for pm_flat_cuts, after the checks. */

@@ -28,10 +28,10 @@ static enum pm_status add_patch(struct pm_shell *s, const struct pm_patch *p, in
     return PM_OK;
 }
 
-struct pm_remesh_opts pm_shell_edges(double size)
+struct pm_remesh_opts pm_shell_edges(double size, double crest)
 {
     return (struct pm_remesh_opts){
-        .size = size, .size_min = size / 6, .crest = 1.2, .growth = 0.35, .sweeps = 8};
+        .size = size, .size_min = size / 6, .crest = crest, .growth = 0.35, .sweeps = 8};
 }
 
 enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirrors *y,
@@ -41,7 +41,7 @@ enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirro
     enum pm_status status = PM_OK;
     const double size = opts->size, timeout = opts->timeout;
     struct pm_wall_side side = {.walls = opts->walls};
-    struct pm_remesh_opts o = pm_shell_edges(size);
+    struct pm_remesh_opts o = pm_shell_edges(size, s->pcase.mesh_crest);
     struct pm_patch patch = {0};
     *shell = (struct pm_shell){.planes = y->planes};
     o.bound = opts->walls != NULL ? pm_walls_bound : NULL;

@@ -87,6 +87,7 @@ static enum pm_status read_state(struct wsint_design *d, const char *path, int r
     take(q, path, s.mesh.nc, s.pressure, s.U, s.J);
     q->intersections = s.contact.intersections;
     q->gap = s.contact.gap;
+    q->closeness = s.contact.closeness;
 done:
     pm_state_release(&s);
     return status;
@@ -116,6 +117,7 @@ static enum pm_status read_path(struct wsint_design *d, const char *path, int re
         take(&q[i], path, nc, s.pressure + nc * i, s.U + 6 * i, s.J + 6 * nc * i);
         q[i].intersections = s.intersections[i];
         q[i].gap = s.gap[i];
+        q[i].closeness = s.closeness[i];
     }
 done:
     pm_sweep_release(&s);

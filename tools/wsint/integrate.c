@@ -5,6 +5,7 @@
 #include "common/actuation/amplification.h"
 #include "common/actuation/measure.h"
 #include "common/base/memory.h"
+#include "common/geometry/closeness.h"
 #include "tools/wsint/wsint.h"
 
 /* Pressures are written as computed by pm_load_set; the slack only forgives decimal input to
@@ -33,7 +34,7 @@ enum pm_status wsint_match(const struct pm_case *c, struct wsint_point *points, 
 {
     enum pm_status status;
     const double range = fmax(fabs(c->pmin), fabs(c->pmax));
-    ptrdiff_t found = 0, missing = -1;
+    ptrdiff_t found = 0, guards = 0, missing = -1;
 
     PM_TRY(pm_load_set(c, s->form, &s->loads, &s->ng, err));
     PM_TRY(PM_NEW(s->order, s->ng, err));
@@ -49,11 +50,12 @@ enum pm_status wsint_match(const struct pm_case *c, struct wsint_point *points, 
             s->order[g] = i;
             points[i].used = 1;
             found += s->loads[g].weight != 0;
+            guards += s->loads[g].weight == 0;
         }
         missing = s->order[g] < 0 && missing < 0 ? g : missing;
     }
-    if (missing >= 0 && s->loads[missing].weight == 0) { /* the guard is not of the measure */
-        s->ng--;
+    if (missing >= 0 && s->loads[missing].weight == 0 && guards == 0) { /* not of the measure */
+        s->ng = missing;
         missing = -1;
     }
     if (found == 0)
@@ -85,6 +87,8 @@ static enum pm_status allocate(struct pm_work *work, ptrdiff_t ng, ptrdiff_t nc,
     PM_TRY(PM_NEW(work->dw_dJ, ng * 6 * nc, err));
     PM_TRY(PM_NEW(work->intersections, ng, err));
     PM_TRY(PM_NEW(work->gap, ng, err));
+    PM_TRY(PM_NEW(work->closeness_at, ng, err));
+    PM_TRY(PM_NEW(work->dw_dG, ng, err));
 done:
     return status;
 }
@@ -98,12 +102,14 @@ enum pm_status wsint_integrate(const struct pm_case *c, const struct wsint_point
 
     PM_TRY(allocate(work, s->ng, nc, err));
     work->form = s->form;
-    work->value = 0;
+    work->value = work->closeness = 0;
     for (ptrdiff_t g = 0; g < s->ng; g++) {
         const struct wsint_point *q = &points[s->order[g]];
         work->load[g] = g;
         work->intersections[g] = q->intersections;
         work->gap[g] = q->gap;
+        work->closeness_at[g] = q->closeness;
+        work->closeness += s->loads[g].multiplicity * q->closeness;
         memcpy(work->pressure + g * nc, q->pressure, (size_t)nc * sizeof(double));
         memcpy(work->U + g * 6, q->U, sizeof q->U);
         memcpy(work->J + g * 6 * nc, q->J, (size_t)(6 * nc) * sizeof(double));
@@ -118,15 +124,17 @@ enum pm_status wsint_integrate(const struct pm_case *c, const struct wsint_point
         work->orientation = work->value < 0 ? -1 : 1;
     work->value *= work->orientation;
     PM_TRY(PM_NEW(df_dJ, 6 * nc * s->ng, err));
-    const double f = pm_amplification(c, s->ng, work->J, &work->amplification, df_dJ);
-    work->objective = f * work->value;
+    const double f = pm_amplification(c, s->ng, work->J, &work->amplification, df_dJ),
+                 h = pm_closeness_factor(work->closeness);
+    work->objective = f * h * work->value;
     for (ptrdiff_t g = 0; g < s->ng; g++) {
-        const double scale = f * work->orientation * s->loads[g].weight;
+        const double scale = f * h * work->orientation * s->loads[g].weight;
         work->w[g] *= work->orientation;
         for (ptrdiff_t i = 0; i < 6; i++)
             work->dw_dU[6 * g + i] *= scale;
         for (ptrdiff_t i = 6 * nc * g; i < 6 * nc * (g + 1); i++)
-            work->dw_dJ[i] = scale * work->dw_dJ[i] + work->value * df_dJ[i];
+            work->dw_dJ[i] = scale * work->dw_dJ[i] + h * work->value * df_dJ[i];
+        work->dw_dG[g] = pm_closeness_slope(s->loads[g].multiplicity) * work->objective;
     }
 done:
     pm_free(df_dJ);

@@ -52,6 +52,7 @@ struct wsint_point {
     double J[6 * PM_MAX_CHAMBERS];    /* (6 x n) per unit of p/mu */
     int64_t intersections;            /* of the deformed boundary with itself */
     double gap;                       /* [mm] */
+    double closeness;                 /* G */
     int used;                         /* taken by a Gauss set */
 };
 

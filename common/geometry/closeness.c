@@ -1,0 +1,214 @@
+#include "common/geometry/closeness.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/geometry/skin.h"
+
+/* Weight of closeness in the objective. */
+static const double STRENGTH = 0.002;
+
+struct near {
+    const struct pm_skin *s;
+    double d; /* gap_min [mm] */
+    int32_t *id;
+    double *gradient; /* (nn x 3) or NULL */
+};
+
+/* A ray through air and the triangle that it meets. */
+struct ray {
+    double from[3], along[3];
+    double length, cosine;
+    double at[3]; /* barycentric */
+    int32_t hit;  /* -1: none */
+};
+
+static double dot(const double a[3], const double b[3])
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double a[3], const double b[3], double c[3])
+{
+    for (int i = 0; i < 3; i++) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        c[i] = a[j] * b[k] - a[k] * b[j];
+    }
+}
+
+/* Edges from the first corner of a triangle, and their product, twice its area times its normal. */
+static void frame(const struct pm_skin *s, int32_t t, double a[3], double b[3], double N[3])
+{
+    const int32_t *v = s->tri + 3 * (ptrdiff_t)t;
+    for (int i = 0; i < 3; i++) {
+        a[i] = s->y[3 * v[1] + i] - s->y[3 * v[0] + i];
+        b[i] = s->y[3 * v[2] + i] - s->y[3 * v[0] + i];
+    }
+    cross(a, b, N);
+}
+
+/* Does the ray meet triangle t sooner? */
+static void meet(const struct pm_skin *s, int32_t t, struct ray *r)
+{
+    double a[3], b[3], N[3], w[3], c[3];
+    const double *corner = s->y + 3 * (ptrdiff_t)s->tri[3 * (ptrdiff_t)t];
+    frame(s, t, a, b, N);
+    const double size = sqrt(dot(N, N)), down = -dot(r->along, N);
+    for (int i = 0; i < 3; i++)
+        w[i] = corner[i] - r->from[i];
+    const double length = -dot(w, N) / down;
+    if (!(down > 0 && size > 0 && length > 0 && length < r->length))
+        return;
+    for (int i = 0; i < 3; i++)
+        w[i] = length * r->along[i] - w[i]; /* from the corner */
+    cross(w, b, c);
+    const double p = dot(c, N) / (size * size);
+    cross(a, w, c);
+    const double q = dot(c, N) / (size * size);
+    if (!(p >= 0 && q >= 0 && p + q <= 1))
+        return;
+    *r = (struct ray){.length = length,
+                      .cosine = down / size,
+                      .at = {1 - p - q, p, q},
+                      .hit = t,
+                      .from = {r->from[0], r->from[1], r->from[2]},
+                      .along = {r->along[0], r->along[1], r->along[2]}};
+}
+
+static void cast(const struct near *c, struct ray *r)
+{
+    double box[6];
+    for (int i = 0; i < 3; i++) {
+        const double end = r->from[i] + c->d * r->along[i];
+        box[i] = fmin(r->from[i], end);
+        box[3 + i] = fmax(r->from[i], end);
+    }
+    const ptrdiff_t n = pm_boxes_meet(c->s->boxes, box, c->id);
+    for (ptrdiff_t k = 0; k < n; k++)
+        meet(c->s, c->id[k], r);
+}
+
+/* gradient += the derivative of w.N by the corners of triangle t. */
+static void spread_normal(const struct near *c, int32_t t, const double w[3])
+{
+    double a[3], b[3], N[3], da[3], db[3];
+    const int32_t *v = c->s->tri + 3 * (ptrdiff_t)t;
+    frame(c->s, t, a, b, N);
+    cross(b, w, da);
+    cross(w, a, db);
+    for (int i = 0; i < 3; i++) {
+        c->gradient[3 * v[0] + i] -= da[i] + db[i];
+        c->gradient[3 * v[1] + i] += da[i];
+        c->gradient[3 * v[2] + i] += db[i];
+    }
+}
+
+/* The term of a ray from triangle t, its image in the planes of `mirror`, and its derivative. */
+static double enter(const struct near *c, int32_t t, const struct ray *r, const double mirror[3])
+{
+    const struct pm_skin *s = c->s;
+    const double *m = s->facet + 3 * (ptrdiff_t)r->hit, *n = r->along;
+    const double x = r->length / c->d, cosine = r->cosine;
+    double a[3], b[3], N[3], w[3], from[3];
+    frame(s, t, a, b, N);
+    const double size = sqrt(dot(N, N)), share = size / (2 * c->d * c->d);
+    const double barrier = -(1 - x) * (1 - x) * log(x);
+    const double value = share * cosine * cosine * barrier;
+    if (c->gradient == NULL)
+        return value;
+    const double by_length = share * cosine * cosine *
+                             (2 * (1 - x) * log(x) - (1 - x) * (1 - x) / x) / c->d,
+                 by_cosine = 2 * share * cosine * barrier;
+    const int32_t *v = s->tri + 3 * (ptrdiff_t)t, *h = s->tri + 3 * (ptrdiff_t)r->hit;
+    for (int i = 0; i < 3; i++) {
+        from[i] = mirror[i] * by_length * m[i] / cosine;
+        w[i] = by_length * r->length * m[i] / cosine - by_cosine * m[i];
+        for (int k = 0; k < 3; k++) {
+            c->gradient[3 * v[k] + i] += from[i] / 3;
+            c->gradient[3 * h[k] + i] -= by_length * r->at[k] * m[i] / cosine;
+        }
+    }
+    /* dn = (1 - n n') dN / |N| of the image; d|N| = n.dN */
+    const double along = dot(w, n);
+    for (int i = 0; i < 3; i++)
+        w[i] = mirror[i] * ((w[i] - along * n[i]) / size + value / size * n[i]);
+    spread_normal(c, t, w);
+    double M[3];
+    frame(s, r->hit, a, b, M);
+    const double other = sqrt(dot(M, M));
+    for (int i = 0; i < 3; i++)
+        w[i] = -by_cosine * (n[i] + cosine * m[i]) / other;
+    spread_normal(c, r->hit, w);
+    return value;
+}
+
+/* The nearer of what the ray of triangle t and its images across the planes meet. */
+static double look_from(const struct near *c, int32_t t)
+{
+    const struct pm_skin *s = c->s;
+    struct ray best = {.hit = -1, .length = c->d};
+    double mirror[3] = {1, 1, 1};
+    for (unsigned image = 0; image < 1U << s->nplanes; image++) {
+        struct ray r = {.hit = -1, .length = best.length};
+        double sign[3] = {1, 1, 1};
+        for (int i = 0; i < 3; i++) {
+            r.along[i] = s->facet[3 * (ptrdiff_t)t + i];
+            for (int k = 0; k < 3; k++)
+                r.from[i] += s->y[3 * s->tri[3 * (ptrdiff_t)t + k] + i] / 3;
+        }
+        double away = 0;
+        for (int k = 0; k < s->nplanes; k++) {
+            const struct pm_skin_plane *p = &s->plane[k];
+            if (!(image >> k & 1U))
+                continue;
+            away = fmax(away, fabs(r.from[p->axis] - p->at));
+            r.from[p->axis] = 2 * p->at - r.from[p->axis];
+            r.along[p->axis] = -r.along[p->axis];
+            sign[p->axis] = -1;
+        }
+        if (away < c->d)
+            cast(c, &r);
+        if (r.hit < 0)
+            continue;
+        best = r;
+        memcpy(mirror, sign, sizeof mirror);
+    }
+    return best.hit >= 0 ? enter(c, t, &best, mirror) : 0;
+}
+
+enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double *G, double *dG_dx,
+                            struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_skin s = {.nt = 0};
+    struct near c = {.s = &s, .d = m->pcase.gap_min, .gradient = dG_dx};
+
+    *G = 0;
+    if (dG_dx != NULL)
+        memset(dG_dx, 0, 3 * (size_t)m->nn * sizeof *dG_dx);
+    if (!(c.d > 0))
+        return PM_OK;
+    PM_TRY(pm_skin_new(m, u, &s, err));
+    PM_TRY(PM_NEW(c.id, s.nt, err));
+    for (ptrdiff_t t = 0; t < s.nt; t++)
+        *G += look_from(&c, (int32_t)t);
+    const double copies = (double)(1U << s.nplanes);
+    *G *= copies;
+    for (ptrdiff_t i = 0; i < 3 * m->nn && dG_dx != NULL; i++)
+        dG_dx[i] *= copies;
+done:
+    pm_free(c.id);
+    pm_skin_release(&s);
+    return status;
+}
+
+double pm_closeness_factor(double sum)
+{
+    return exp(-STRENGTH * sum);
+}
+
+double pm_closeness_slope(int multiplicity)
+{
+    return -STRENGTH * multiplicity;
+}
