@@ -45,6 +45,17 @@ rm -f "$work"/tet10-blend-volume-*
 check "states, elastic extension" states tet10-blend volume 2
 check "gradient, elastic extension" gradient tet10-blend volume 1
 
+# closing: chambers narrower than gap_min, so that their own walls face each other.
+closing() {
+    sed '/^wall_min = /i contact = reject\ngap_min = 14' tests/data/tiny.ini >"$work/closing.ini"
+    "$BIN/surfgen" "$work/closing.ini" -o "$work/closing.h5" && "$BIN/tetmesh" "$work/closing.h5" -o "$work/mesh.h5"
+}
+check "chambers narrower than gap_min" closing
+rm -f "$work"/tet10-blend-boundary-*
+check "states that close" states tet10-blend boundary 5
+check "gradient of closeness, a point" gradient tet10-blend boundary 2
+check "gradient of closeness, a guard" gradient tet10-blend boundary 4
+
 # entries FORM: U, J, V, C one by one make up the aggregated gradient.
 entries() {
     "$BIN/adjsens" --each --form "$1" "$work/tet10-blend-volume-1.h5" "$work/tet10-blend-volume-work.h5" -o "$work/each.h5" &&
