@@ -50,8 +50,8 @@ for ((n = 0; n <= 10#$last; n++)); do
     if [ ! "$run/history.tsv" -nt "$step" ] && [ ! -e "$run/$(printf 'it%03d' $((n + 1)))/step.h5" ]; then
         "$BIN/trstep" --history "$step" >"$run/history.new"
         mv "$run/history.new" "$run/history.tsv"
-        awk -F '\t' -v it="$iteration" 'END { printf "%s %s: measure %s, ratio %s, radius %s mm, step %s mm, violations %s %s, amplification %s%s%s\n",
-            it, $2 ? "accepted" : "rejected", $3, $6, $7, $10, $8, $9, $13, $11 ? sprintf(", renewed, jump %+.2f %%", 100 * $12) : "", $14 == "-" ? "" : ": " $14 }' "$run/history.tsv" >&2
+        awk -F '\t' -v it="$iteration" 'END { printf "%s %s: measure %s, ratio %s, radius %s mm, step %s mm, violations %s %s, amplification %s, gap %s mm%s%s\n",
+            it, $2 ? "accepted" : "rejected", $3, $6, $7, $10, $8, $9, $13, $14 < 0 ? "wide" : $14, $11 ? sprintf(", renewed, jump %+.2f %%", 100 * $12) : "", $15 == "-" ? "" : ": " $15 }' "$run/history.tsv" >&2
     fi
     verdict=$("$BIN/trstep" --verdict "$step")
     if [ "$verdict" != continue ]; then

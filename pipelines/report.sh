@@ -10,7 +10,7 @@ for iteration in it000 "$last"; do
     "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$run/$iteration/both.h5"
 done
 awk -F '\t' 'NR == 1 { printf "%9s %9s %12s %8s %9s %9s %9s  %s\n", "iteration", "accepted", "measure", "ratio", "radius mm", "step mm", "wall lack", "reason" }
-    NR > 1 { printf "%9d %9s %12s %8s %9s %9s %9s  %s\n", $1, $2 ? "yes" : "no", $3, $6, $7, $10, $9, ($11 ? sprintf("renewed, jump %+.2f %% ", 100 * $12) : "") ($14 == "-" ? "" : $14) }' "$run/history.tsv"
+    NR > 1 { printf "%9d %9s %12s %8s %9s %9s %9s  %s\n", $1, $2 ? "yes" : "no", $3, $6, $7, $10, $9, ($11 ? sprintf("renewed, jump %+.2f %% ", 100 * $12) : "") ($15 == "-" ? "" : $15) }' "$run/history.tsv"
 echo
 for iteration in it000 "$last"; do
     "$BIN/wsint" --show "$run/$iteration/both.h5" | sed "s/^/$iteration  /"

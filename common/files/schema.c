@@ -215,6 +215,7 @@ static const struct pm_item table[] = {
     {"step", "/trial/jump", D, "nh", "1", "relative change of the objective by the new mesh, 0 for a trial", 1},
     {"step", "/trial/measure", D, "nh", "see work", "measure, 0 where the design failed", 1},
     {"step", "/trial/amplification", D, "nh", "1", "largest |dU/dp| of a point over the geometric mean of all", 1},
+    {"step", "/trial/gap", D, "nh", "mm", "least distance across air of all states, 0 where one pierces itself, -1 where wide", 1},
     {"step", "/trial/merit", D, "nh", "see work", "objective minus penalties", 1},
     {"step", "/trial/predicted", D, "nh", "see work", "predicted gain of merit", 1},
     {"step", "/trial/ratio", D, "nh", "1", "actual over predicted gain", 1},

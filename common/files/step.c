@@ -30,6 +30,7 @@ static const struct item columns[] = {
     {"/trial/jump", AT(jump)},
     {"/trial/measure", AT(measure)},
     {"/trial/amplification", AT(amplification)},
+    {"/trial/gap", AT(gap)},
     {"/trial/merit", AT(merit)},
     {"/trial/predicted", AT(predicted)},
     {"/trial/ratio", AT(ratio)},

@@ -14,6 +14,7 @@ struct pm_trial {
     double jump;       /* relative change of the objective by that, 0 for a trial */
     double measure;    /* T; 0 where the design failed (then the reason says why) */
     double amplification; /* largest of its points */
+    double gap; /* least across air of its states, 0 where one pierces itself, -1: wide [mm] */
     double merit;     /* objective - rho_c C_c - rho_t C_t with the weights of its sub-problem */
     double predicted; /* predicted gain of merit over the last accepted design */
     double ratio;     /* actual / predicted */

@@ -73,7 +73,7 @@ check "goes on" run wild 3
 row() {
     awk -F '\t' -v n="$1" "NR == n + 2 { exit !($2) }" "$work/wild/history.tsv"
 }
-check "the trial is rejected with a reason and no measure" row 1 '$2 == 0 && $3 == "-" && $14 != "-"'
+check "the trial is rejected with a reason and no measure" row 1 '$2 == 0 && $3 == "-" && $15 != "-"'
 check "without adjoint work" test ! -e "$work/wild/it001/sens-00.h5"
 check "after a renewal the next one has a third of the radius and is better" awk -F '\t' \
     'NR == 4 { t = $3; renewed = $11 } NR == 5 { good = renewed && $2 == 1 && $7 < 0.07 && $3 > t } END { exit !good }' "$work/wild/history.tsv"

@@ -16,10 +16,10 @@ static void print_row(const struct pm_trial *t)
         snprintf(merit, sizeof merit, "%.9g", t->merit);
         snprintf(ratio, sizeof ratio, "%.4g", t->ratio);
     }
-    printf("%lld\t%lld\t%s\t%s\t%.6g\t%s\t%.4g\t%.3g\t%.3g\t%.4g\t%lld\t%.3g\t%.3g\t%s\n",
+    printf("%lld\t%lld\t%s\t%s\t%.6g\t%s\t%.4g\t%.3g\t%.3g\t%.4g\t%lld\t%.3g\t%.3g\t%.3g\t%s\n",
            (long long)t->iteration, (long long)t->accepted, measure, merit, t->predicted, ratio,
            t->radius, t->worst_curvature, t->worst_wall, t->rms_step, (long long)t->renewed,
-           t->jump, t->amplification, t->reason[0] != '\0' ? t->reason : "-");
+           t->jump, t->amplification, t->gap, t->reason[0] != '\0' ? t->reason : "-");
 }
 
 enum pm_status trstep_print(const struct trstep_opts *opts, struct pm_err *err)
@@ -40,7 +40,7 @@ enum pm_status trstep_print(const struct trstep_opts *opts, struct pm_err *err)
         goto done;
     }
     puts("iteration\taccepted\tmeasure\tmerit\tpredicted\tratio\tradius\tworst_curvature\tworst_"
-         "wall\trms_step\trenewed\tjump\tamplification\treason");
+         "wall\trms_step\trenewed\tjump\tamplification\tgap\treason");
     for (ptrdiff_t i = 0; i < s.ntrials; i++)
         print_row(&s.trials[i]);
 done:

@@ -169,6 +169,15 @@ done:
     return status;
 }
 
+static double least_gap(const struct pm_work *w)
+{
+    double least = -1;
+    for (ptrdiff_t g = 0; g < w->ng; g++)
+        if (w->gap[g] >= 0 && (least < 0 || w->gap[g] < least))
+            least = w->gap[g];
+    return least;
+}
+
 /* The history of the previous step and a row for this trial. */
 static enum pm_status add_row(const struct trial *t, struct pm_step *s, struct pm_err *err)
 {
@@ -178,7 +187,8 @@ static enum pm_status add_row(const struct trial *t, struct pm_step *s, struct p
     struct pm_trial row = {.iteration = n,
                            .accepted = t->judgement.accepted,
                            .measure = t->work.value,
-                           .amplification = t->work.amplification};
+                           .amplification = t->work.amplification,
+                           .gap = least_gap(&t->work)};
 
     PM_TRY(PM_NEW(s->trials, n + 1, err));
     if (b != NULL) {
