@@ -47,8 +47,8 @@ struct pm_mesh {
     double min_jacobian; /* smallest scaled Jacobian, Bernstein lower bound */
     double coarse; /* part of the area of the surfaces where edges were 1.5 times longer than wanted
                       when it was generated; 0 for imported */
-    int64_t origin;      /* PM_ORIGIN_* */
-    int64_t delaunay;    /* 1: HXT failed, made by the slower Delaunay mesher */
+    int64_t origin;   /* PM_ORIGIN_* */
+    int64_t delaunay; /* 1: HXT failed, made by the slower Delaunay mesher */
 };
 
 enum pm_status pm_mesh_read(struct pm_h5 *f, struct pm_mesh *m, struct pm_err *err);

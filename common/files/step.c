@@ -102,6 +102,12 @@ enum pm_status pm_step_load(const char *path, struct pm_step *s, struct pm_err *
         PM_TRY(pm_h5_get_into(f, items[k].name, items[k].count, (char *)s + items[k].offset, err));
     PM_TRY(pm_h5_get_int(f, "/step/renew", &s->renew, err));
     PM_TRY(pm_h5_get(f, "/accepted/gradient", d, &s->gradient, err));
+    if (pm_h5_has(f, "/close/value")) {
+        PM_TRY(pm_h5_get(f, "/close/weight", d, &s->close_weight, err));
+        PM_TRY(pm_h5_get(f, "/close/gradient", d, &s->close_gradient, err));
+        PM_TRY(pm_h5_get(f, "/close/value", d, &s->close_value, err));
+        s->nclose = d[0];
+    }
     if (pm_h5_has(f, "/pair/step")) {
         PM_TRY(pm_h5_get(f, "/pair/gradient", d, &s->pair_gradient, err));
         PM_TRY(pm_h5_get(f, "/pair/step", d, &s->pair_step, err));
@@ -151,7 +157,7 @@ enum pm_status pm_step_write(struct pm_h5 *f, const struct pm_step *s, struct pm
 {
     enum pm_status status;
     const ptrdiff_t d[] = {s->accepted.offset[s->accepted.ns], 3};
-    const ptrdiff_t pairs[] = {s->npairs, d[0], 3};
+    const ptrdiff_t pairs[] = {s->npairs, d[0], 3}, close[] = {s->nclose, d[0], 3};
 
     PM_TRY(pm_surfaces_write(f, &s->trial, err));
     PM_TRY(pm_surfaces_write_at(f, "/accepted", &s->accepted, err));
@@ -161,6 +167,11 @@ enum pm_status pm_step_write(struct pm_h5 *f, const struct pm_step *s, struct pm
                          (const char *)s + items[k].offset, err));
     PM_TRY(pm_h5_put_int(f, "/step/renew", s->renew, err));
     PM_TRY(pm_h5_put(f, "/accepted/gradient", d, s->gradient, err));
+    if (s->nclose > 0) {
+        PM_TRY(pm_h5_put(f, "/close/weight", &s->nclose, s->close_weight, err));
+        PM_TRY(pm_h5_put(f, "/close/value", &s->nclose, s->close_value, err));
+        PM_TRY(pm_h5_put(f, "/close/gradient", close, s->close_gradient, err));
+    }
     if (s->npairs > 0) {
         PM_TRY(pm_h5_put(f, "/pair/step", pairs, s->pair_step, err));
         PM_TRY(pm_h5_put(f, "/pair/gradient", pairs, s->pair_gradient, err));
@@ -175,6 +186,9 @@ void pm_step_release(struct pm_step *s)
     pm_surfaces_release(&s->trial);
     pm_surfaces_release(&s->accepted);
     pm_free(s->gradient);
+    pm_free(s->close_weight);
+    pm_free(s->close_value);
+    pm_free(s->close_gradient);
     pm_free(s->pair_step);
     pm_free(s->pair_gradient);
     pm_free(s->trials);

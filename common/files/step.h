@@ -14,11 +14,11 @@ struct pm_trial {
     double jump;       /* relative change of the objective by that, 0 for a trial */
     double measure;    /* T; 0 where the design failed (then the reason says why) */
     double amplification; /* largest of its points */
-    double gap; /* least across air of its states, 0 where one pierces itself, -1: wide [mm] */
-    double merit;     /* objective - rho_c C_c - rho_t C_t with the weights of its sub-problem */
-    double predicted; /* predicted gain of merit over the last accepted design */
-    double ratio;     /* actual / predicted */
-    double radius;    /* trust radius of its sub-problem [mm] */
+    double gap;   /* least across air of its states, 0 where one pierces itself, -1: wide [mm] */
+    double merit; /* objective - rho_c C_c - rho_t C_t with the weights of its sub-problem */
+    double predicted;                   /* predicted gain of merit over the last accepted design */
+    double ratio;                       /* actual / predicted */
+    double radius;                      /* trust radius of its sub-problem [mm] */
     double worst_curvature, worst_wall; /* largest relative violations, >= 0 */
     double rms_step;  /* rms surface displacement from the last accepted design [mm] */
     char reason[160]; /* of a rejection, "" */
@@ -27,10 +27,14 @@ struct pm_trial {
 struct pm_step {
     struct pm_surfaces trial;    /* proposed; pcase is the case of the run */
     struct pm_surfaces accepted; /* last accepted design (its pcase is a copy) */
-    char verdict[16];  /* continue, converged, stalled; the latter propose the accepted design */
-    double value;      /* objective of the accepted design */
-    double *gradient;  /* its derivative by phi of the accepted design, projected on the symmetric
-                          free subspace (N x 3) */
+    char verdict[16];     /* continue, converged, stalled; the latter propose the accepted design */
+    double value;         /* objective of the accepted design */
+    double *gradient;     /* its derivative by phi of the accepted design but for that by closeness,
+                             projected on the symmetric free subspace (N x 3) */
+    ptrdiff_t nclose;     /* states of the accepted design that are close to themselves */
+    double *close_weight; /* a_g = -d objective / d G_g > 0     (nclose) */
+    double *close_value;  /* G_g                                (nclose) */
+    double *close_gradient; /* dG_g/dphi, projected alike         (nclose x N x 3) [1/mm] */
     ptrdiff_t npairs;  /* steps between accepted designs of these control points, oldest first */
     double *pair_step; /* (npairs x N x 3) [mm] */
     double *pair_gradient; /* change of the gradient over it (npairs x N x 3) */

@@ -7,7 +7,7 @@
 #include "common/geometry/skin.h"
 
 /* Weight of closeness in the objective. */
-static const double STRENGTH = 0.002;
+static const double STRENGTH = 0.01;
 
 struct near {
     const struct pm_skin *s;
@@ -113,12 +113,11 @@ static double enter(const struct near *c, int32_t t, const struct ray *r, const 
     double a[3], b[3], N[3], w[3], from[3];
     frame(s, t, a, b, N);
     const double size = sqrt(dot(N, N)), share = size / (2 * c->d * c->d);
-    const double barrier = -(1 - x) * (1 - x) * log(x);
+    const double barrier = (1 - x) * (1 - x);
     const double value = share * cosine * cosine * barrier;
     if (c->gradient == NULL)
         return value;
-    const double by_length = share * cosine * cosine *
-                             (2 * (1 - x) * log(x) - (1 - x) * (1 - x) / x) / c->d,
+    const double by_length = -2 * share * cosine * cosine * (1 - x) / c->d,
                  by_cosine = 2 * share * cosine * barrier;
     const int32_t *v = s->tri + 3 * (ptrdiff_t)t, *h = s->tri + 3 * (ptrdiff_t)r->hit;
     for (int i = 0; i < 3; i++) {

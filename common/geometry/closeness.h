@@ -8,16 +8,16 @@
  * area A and normal n, a ray along n through air meets the boundary, or its image across a symmetry
  * plane, after g at a triangle of normal m:
  *
- *   G = sum_s A/d^2 cos^2 b(g/d),  cos = -n.m > 0,  b(x) = -(1 - x)^2 ln x for x < 1, else 0
+ *   G = sum_s A/d^2 cos^2 b(g/d),  cos = -n.m > 0,  b(x) = (1 - x)^2 for x < 1, else 0
  *
  * of the whole body: a half model counts twice [model 7.1]. d: gap_min of the case [mm]; 0 gives
- * G = 0. G grows without bound towards contact; it says nothing of bodies that pierce themselves.
+ * G = 0. It says nothing of bodies that pierce themselves.
  * dG_dx (nn x 3) = derivatives by the positions of the nodes [1/mm], NULL: not wanted. About nf log
  * nf. */
 enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double *G, double *dG_dx,
                             struct pm_err *err);
 
-/* Factor of the objective, exp(-0.002 sum_g mult_g G_g) [model 7.1]; and d ln(factor)/dG_g for one
+/* Factor of the objective, exp(-0.01 sum_g mult_g G_g) [model 7.1]; and d ln(factor)/dG_g for one
  * state of the symmetric whole. */
 double pm_closeness_factor(double sum);
 double pm_closeness_slope(int multiplicity);

@@ -222,7 +222,7 @@ static void check_closeness_gradient(struct groove *g, double gap_min, const cha
         largest = fmax(largest, fabs(gradient[i]));
     }
     /* truncation h^2 / gap^2 */
-    ok(worst < 1e-7 * largest && largest > 1, "%s: derivative off by %.1e of %.3g", text, worst,
+    ok(worst < 1e-7 * largest && largest > 0.5, "%s: derivative off by %.1e of %.3g", text, worst,
        largest);
 }
 
@@ -239,7 +239,7 @@ static void check_closeness(void)
     static struct groove g;
     make_groove(&g);
     /* flanks of 5 x 4, 2 apart; the floor sees nothing */
-    const double x = 2.0 / 3, b = -(1 - x) * (1 - x) * log(x);
+    const double x = 2.0 / 3, b = (1 - x) * (1 - x);
     near_rel("parallel flanks", close_by(&g, 3, NULL), 2 * 20.0 / 9 * b, 1e-12);
     near_abs("wide flanks", close_by(&g, 2, NULL), 0, 0);
     near_abs("not asked for", close_by(&g, 0, NULL), 0, 0);

@@ -47,7 +47,7 @@ check "gradient, elastic extension" gradient tet10-blend volume 1
 
 # closing: chambers narrower than gap_min, so that their own walls face each other.
 closing() {
-    sed '/^wall_min = /i contact = reject\ngap_min = 14' tests/data/tiny.ini >"$work/closing.ini"
+    sed '/^wall_min = /i contact = reject\ngap_min = 11' tests/data/tiny.ini >"$work/closing.ini"
     "$BIN/surfgen" "$work/closing.ini" -o "$work/closing.h5" && "$BIN/tetmesh" "$work/closing.h5" -o "$work/mesh.h5"
 }
 check "chambers narrower than gap_min" closing

@@ -174,35 +174,42 @@ static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens
     enum pm_status status;
     struct pm_mesh *mesh = &pt->state.mesh;
     const struct pm_adjoint_at at = adjsens_at(pt);
-    struct pm_objective w = {.V = {0}};
+    struct pm_objective w[2] = {{.V = {0}}, {.V = {0}}};
     ptrdiff_t nc = mesh->nc;
-    double *D = NULL, D_ref[3], G;
+    double *D = NULL, *near = NULL, D_ref[6], G;
     PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
-    PM_TRY(PM_NEW(D, 3 * pt->m->nn, err));
+    PM_TRY(PM_NEW(D, 6 * pt->m->nn, err));
     for (ptrdiff_t l = 0; l < 6; l++) {
-        w.U[l] = pt->work.dw_dU[6 * pt->row + l];
+        w[0].U[l] = pt->work.dw_dU[6 * pt->row + l];
         for (ptrdiff_t r = 0; r < nc; r++)
-            w.J[l][r] = pt->work.dw_dJ[6 * nc * pt->row + nc * l + r];
+            w[0].J[l][r] = pt->work.dw_dJ[6 * nc * pt->row + nc * l + r];
     }
     if (is_close(pt) && o->form == PM_SHAPE_BOUNDARY)
         PM_TRY(pm_fail(err, PM_INPUT,
                        "the body comes closer to itself than gap_min: the boundary form does not "
                        "know of that, expected gap_min = 0"));
-    if (is_close(pt)) {
+    const int close = is_close(pt);
+    if (close) {
+        PM_TRY(PM_NEW(out->closeness, 3 * mesh->N, err));
+        PM_TRY(PM_NEW(near, 3 * pt->m->nn, err));
         PM_TRY(PM_NEW(pt->near, 3 * pt->m->nn, err));
-        PM_TRY(pm_closeness(mesh, pt->state.u, &G, pt->near, err));
+        PM_TRY(pm_closeness(mesh, pt->state.u, &G, near, err));
         for (ptrdiff_t i = 0; i < 3 * pt->m->nn; i++)
-            pt->near[i] *= pt->work.dw_dG[pt->row];
-        w.x = pt->near;
+            pt->near[i] = near[i] * pt->work.dw_dG[pt->row];
+        w[0].x = pt->near;
+        w[1].x = near;
     }
-    PM_TRY(pm_adjoint(&at, 1, &w, o->form, D, D_ref, err));
+    PM_TRY(pm_adjoint(&at, 1 + close, w, o->form, D, D_ref, err));
     if (o->form == PM_SHAPE_DOMAIN) {
         identities(pt, D, D_ref, out);
         pm_log(1, "identities: translation %.1e, scaling %.1e, rotation %.1e",
                out->identity_translation, out->identity_scaling, out->identity_rotation);
     }
     PM_TRY(adjsens_pull_back(pt, o->form, D, out->gradient, err));
+    if (close)
+        PM_TRY(adjsens_pull_back(pt, o->form, D + 3 * pt->m->nn, out->closeness, err));
 done:
+    pm_free(near);
     pm_free(D);
     return status;
 }

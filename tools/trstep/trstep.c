@@ -8,6 +8,7 @@
 #include "common/base/memory.h"
 #include "common/files/sens.h"
 #include "common/geometry/symmetry.h"
+#include "tools/trstep/near.h"
 #include "tools/trstep/secants.h"
 
 struct trial {
@@ -104,9 +105,10 @@ done:
     return status;
 }
 
-/* gradient = sum over the Gauss points, projected on the symmetric free subspace. */
+/* step->gradient = sum over the Gauss points without what closeness adds, which goes to its own
+ * place; projected on the symmetric free subspace. */
 static enum pm_status sum_gradient(const struct trial *t, char *const *paths, int n,
-                                   double *gradient, struct pm_err *err)
+                                   struct pm_step *step, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const ptrdiff_t N = t->surfaces.offset[t->surfaces.ns];
@@ -130,11 +132,17 @@ static enum pm_status sum_gradient(const struct trial *t, char *const *paths, in
                 "cannot use '%s': point %lld of form %lld, expected each point of form %lld once",
                 paths[k], (long long)s.load, (long long)s.form, (long long)t->work.form));
         seen[s.load] = 1;
+        const double weight = -t->work.dw_dG[s.load];
         for (ptrdiff_t i = 0; i < 3 * N; i++)
-            gradient[i] += s.gradient[i];
+            step->gradient[i] +=
+                s.gradient[i] + (s.closeness != NULL ? weight * s.closeness[i] : 0);
+        if (s.closeness != NULL) {
+            pm_symmetrise_vectors(&t->surfaces, s.closeness);
+            PM_TRY(near_add(step, weight, t->work.closeness_at[s.load], s.closeness, err));
+        }
         pm_sens_release(&s);
     }
-    pm_symmetrise_vectors(&t->surfaces, gradient);
+    pm_symmetrise_vectors(&t->surfaces, step->gradient);
 done:
     pm_sens_release(&s);
     pm_free(seen);
@@ -155,9 +163,11 @@ static enum pm_status set_base(const struct trial *t, char *const *sens, int nse
     const ptrdiff_t N = from->offset[from->ns];
     PM_TRY(PM_NEW(s->gradient, 3 * N, err));
     if (t->judgement.accepted)
-        PM_TRY(sum_gradient(t, sens, nsens, s->gradient, err));
+        PM_TRY(sum_gradient(t, sens, nsens, s, err));
     else
-        memcpy(s->gradient, t->previous.gradient, (size_t)(3 * N) * sizeof *s->gradient);
+        PM_TRY(near_copy(&t->previous, s, err));
+    for (ptrdiff_t i = 0; i < 3 * N && !t->judgement.accepted; i++)
+        s->gradient[i] = t->previous.gradient[i];
     PM_TRY(secants_collect(t->rebuilt && t->judgement.accepted ? NULL : t->before,
                            from->pcase.secants, s, err));
     s->value = t->judgement.accepted ? t->work.objective : t->previous.value;
