@@ -13,13 +13,13 @@ fail() {
 mkdir -p "$run"
 if [ -n "$case" ]; then
     [ -r "$case" ] || fail "cannot read '$case'"
-    # SETTINGS "section.key=value ..": lines of the case replaced, or added to their section.
+    # SETTINGS "section.key=value ..": lines of the case replaced, or added to their section, a new one where there is none.
     awk -v settings="$settings" 'function add(k, part) { for (k in value) { split(k, part, "."); if (part[1] == section) { print part[2] " = " value[k]; delete value[k] } } }
         BEGIN { n = split(settings, list, " "); for (i = 1; i <= n; i++) { split(list[i], kv, "="); value[kv[1]] = kv[2] } }
         /^\[/ { add(); section = $0; gsub(/[][ ]/, "", section) }
         { key = $1; sub(/=.*/, "", key); key = section "." key }
         key in value { $0 = $1 " = " value[key]; delete value[key] } { print }
-        END { add(); for (k in value) { print "optimize: the case has no section of \047" k "\047 to set" > "/dev/stderr"; bad = 2 } exit bad }' \
+        END { add(); for (i = 1; i <= n; i++) { split(list[i], kv, "[.=]"); if ((kv[1] "." kv[2]) in value) { print "\n[" (section = kv[1]) "]"; add() } } }' \
         "$case" >"$run/case.new" || { rm -f "$run/case.new"; exit 2; }
     if [ ! -e "$run/case.ini" ]; then
         mv "$run/case.new" "$run/case.ini"
