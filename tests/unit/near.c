@@ -2,6 +2,7 @@
 #include "tools/trstep/near.h"
 
 #include <math.h>
+#include <string.h>
 
 #include "tests/tap.h"
 
