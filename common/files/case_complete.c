@@ -440,7 +440,7 @@ enum pm_status pm_case_complete(struct pm_case_raw *raw, const char *name, struc
     if (!c->contact_rejects && strcmp(raw->contact, "ignore") != 0)
         PM_TRY(bad_word(name, "contact", raw->contact, "ignore or reject", err));
     if (isnan(c->gap_min))
-        c->gap_min = c->contact_rejects ? 0.3 * c->wall_min : 0;
+        c->gap_min = c->contact_rejects ? 0.6 * c->wall_min : 0;
     else if (c->gap_min > 0 && !c->contact_rejects)
         PM_TRY(
             pm_fail(err, PM_INPUT,
