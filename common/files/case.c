@@ -302,7 +302,6 @@ static void set_defaults(struct pm_case_raw *raw)
                                       .body_rounding = NAN,
                                       .around = 24,
                                       .rows = 48,
-                                      .pmin = 0,
                                       .pmax = 0.12,
                                       .points = 2,
                                       .lever = NAN,
