@@ -21,8 +21,11 @@ static enum pm_status read_sens(struct pm_h5 *f, struct pm_sens *s, struct pm_er
                             (long long)s->shape_form));
     PM_TRY(pm_h5_get(f, "/gradient/phi", d, &s->gradient, err));
     s->N = d[0];
-    if (pm_h5_has(f, "/gradient/closeness"))
-        PM_TRY(pm_h5_get(f, "/gradient/closeness", d, &s->closeness, err));
+    if (pm_h5_has(f, "/close/value")) {
+        PM_TRY(pm_h5_get(f, "/close/gradient", d, &s->close_gradient, err));
+        PM_TRY(pm_h5_get(f, "/close/value", d, &s->close_value, err));
+        s->nclose = d[0];
+    }
     if (s->shape_form == 1)
         return PM_OK;
     PM_TRY(pm_h5_get_double(f, "/gradient/identity_translation", &s->identity_translation, err));
@@ -76,10 +79,12 @@ static enum pm_status write_entries(struct pm_h5 *f, const char *group, ptrdiff_
 static enum pm_status write_gradient(struct pm_h5 *f, const struct pm_sens *s, struct pm_err *err)
 {
     enum pm_status status;
-    const ptrdiff_t d[] = {s->N, 3};
+    const ptrdiff_t d[] = {s->N, 3}, close[] = {s->nclose, s->N, 3};
     PM_TRY(pm_h5_put(f, "/gradient/phi", d, s->gradient, err));
-    if (s->closeness != NULL)
-        PM_TRY(pm_h5_put(f, "/gradient/closeness", d, s->closeness, err));
+    if (s->nclose > 0) {
+        PM_TRY(pm_h5_put(f, "/close/value", &s->nclose, s->close_value, err));
+        PM_TRY(pm_h5_put(f, "/close/gradient", close, s->close_gradient, err));
+    }
     if (s->shape_form == 1)
         return PM_OK;
     PM_TRY(pm_h5_put_double(f, "/gradient/identity_translation", s->identity_translation, err));
@@ -110,7 +115,8 @@ done:
 void pm_sens_release(struct pm_sens *s)
 {
     pm_free(s->gradient);
-    pm_free(s->closeness);
+    pm_free(s->close_value);
+    pm_free(s->close_gradient);
     pm_free(s->compliance);
     pm_free(s->each.d);
     pm_free(s->nodal.d);

@@ -19,7 +19,9 @@ struct pm_sens {
     ptrdiff_t N;        /* control points, 0: none */
     double *gradient;   /* dw_g/dphi (N x 3), not projected on the symmetric subspace; NULL: no work
                            file was given */
-    double *closeness;  /* dG_g/dphi (N x 3), alike; NULL: the state is not close to itself */
+    ptrdiff_t nclose;   /* regions where the state is close to itself (geometry/closeness.h) */
+    double *close_value;    /* G of them (nclose) */
+    double *close_gradient; /* their derivatives, as the gradient (nclose x N x 3) */
     double identity_translation, identity_scaling,
         identity_rotation; /* relative defects of the nodal gradient [model 4.3], domain form */
     ptrdiff_t nc;

@@ -31,7 +31,7 @@ struct pm_step {
     double value;         /* objective of the accepted design */
     double *gradient;     /* its derivative by phi of the accepted design but for that by closeness,
                              projected on the symmetric free subspace (N x 3) */
-    ptrdiff_t nclose;     /* states of the accepted design that are close to themselves */
+    ptrdiff_t nclose;     /* regions where states of the accepted design are close to themselves */
     double *close_weight; /* a_g = -d objective / d G_g > 0     (nclose) */
     double *close_value;  /* G_g                                (nclose) */
     double *close_gradient; /* dG_g/dphi, projected alike         (nclose x N x 3) [1/mm] */

@@ -13,15 +13,16 @@ struct near {
     const struct pm_skin *s;
     double d; /* gap_min [mm] */
     int32_t *id;
-    double *gradient; /* (nn x 3) or NULL */
+    double *gradient; /* of the part at hand (nn x 3), or NULL */
 };
 
 /* A ray through air and the triangle that it meets. */
 struct ray {
     double from[3], along[3];
     double length, cosine;
-    double at[3]; /* barycentric */
-    int32_t hit;  /* -1: none */
+    double at[3];     /* barycentric */
+    int32_t hit;      /* -1: none */
+    double mirror[3]; /* signs of the image that it starts from */
 };
 
 static double dot(const double a[3], const double b[3])
@@ -72,6 +73,7 @@ static void meet(const struct pm_skin *s, int32_t t, struct ray *r)
                       .cosine = down / size,
                       .at = {1 - p - q, p, q},
                       .hit = t,
+                      .mirror = {r->mirror[0], r->mirror[1], r->mirror[2]},
                       .from = {r->from[0], r->from[1], r->from[2]},
                       .along = {r->along[0], r->along[1], r->along[2]}};
 }
@@ -104,8 +106,8 @@ static void spread_normal(const struct near *c, int32_t t, const double w[3])
     }
 }
 
-/* The term of a ray from triangle t, its image in the planes of `mirror`, and its derivative. */
-static double enter(const struct near *c, int32_t t, const struct ray *r, const double mirror[3])
+/* The term of a ray from triangle t and its derivative. */
+static double enter(const struct near *c, int32_t t, const struct ray *r)
 {
     const struct pm_skin *s = c->s;
     const double *m = s->facet + 3 * (ptrdiff_t)r->hit, *n = r->along;
@@ -121,7 +123,7 @@ static double enter(const struct near *c, int32_t t, const struct ray *r, const 
                  by_cosine = 2 * share * cosine * barrier;
     const int32_t *v = s->tri + 3 * (ptrdiff_t)t, *h = s->tri + 3 * (ptrdiff_t)r->hit;
     for (int i = 0; i < 3; i++) {
-        from[i] = mirror[i] * by_length * m[i] / cosine;
+        from[i] = r->mirror[i] * by_length * m[i] / cosine;
         w[i] = by_length * r->length * m[i] / cosine - by_cosine * m[i];
         for (int k = 0; k < 3; k++) {
             c->gradient[3 * v[k] + i] += from[i] / 3;
@@ -131,7 +133,7 @@ static double enter(const struct near *c, int32_t t, const struct ray *r, const 
     /* dn = (1 - n n') dN / |N| of the image; d|N| = n.dN */
     const double along = dot(w, n);
     for (int i = 0; i < 3; i++)
-        w[i] = mirror[i] * ((w[i] - along * n[i]) / size + value / size * n[i]);
+        w[i] = r->mirror[i] * ((w[i] - along * n[i]) / size + value / size * n[i]);
     spread_normal(c, t, w);
     double M[3];
     frame(s, r->hit, a, b, M);
@@ -143,14 +145,12 @@ static double enter(const struct near *c, int32_t t, const struct ray *r, const 
 }
 
 /* The nearer of what the ray of triangle t and its images across the planes meet. */
-static double look_from(const struct near *c, int32_t t)
+static struct ray look_from(const struct near *c, int32_t t)
 {
     const struct pm_skin *s = c->s;
     struct ray best = {.hit = -1, .length = c->d};
-    double mirror[3] = {1, 1, 1};
     for (unsigned image = 0; image < 1U << s->nplanes; image++) {
-        struct ray r = {.hit = -1, .length = best.length};
-        double sign[3] = {1, 1, 1};
+        struct ray r = {.hit = -1, .length = best.length, .mirror = {1, 1, 1}};
         for (int i = 0; i < 3; i++) {
             r.along[i] = s->facet[3 * (ptrdiff_t)t + i];
             for (int k = 0; k < 3; k++)
@@ -164,42 +164,131 @@ static double look_from(const struct near *c, int32_t t)
             away = fmax(away, fabs(r.from[p->axis] - p->at));
             r.from[p->axis] = 2 * p->at - r.from[p->axis];
             r.along[p->axis] = -r.along[p->axis];
-            sign[p->axis] = -1;
+            r.mirror[p->axis] = -1;
         }
         if (away < c->d)
             cast(c, &r);
-        if (r.hit < 0)
-            continue;
-        best = r;
-        memcpy(mirror, sign, sizeof mirror);
+        if (r.hit >= 0)
+            best = r;
     }
-    return best.hit >= 0 ? enter(c, t, &best, mirror) : 0;
+    return best;
 }
 
-enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double *G, double *dG_dx,
-                            struct pm_err *err)
+/* Rays that meet something, with the triangle that each comes from. */
+struct hits {
+    ptrdiff_t n;
+    int32_t *from;       /* (nt) */
+    struct ray *ray;     /* (nt) */
+    int32_t *root;       /* of the nodes: a tree for each region (nn) */
+    double *region;      /* sums of the terms at the roots (nn) */
+    unsigned char *part; /* of the roots (nn) */
+};
+
+static int32_t find(int32_t *root, int32_t a)
+{
+    while (root[a] != a)
+        a = root[a] = root[root[a]];
+    return a;
+}
+
+static void unite(const struct pm_skin *s, int32_t *root, int32_t t, int32_t hit)
+{
+    const int32_t first = s->tri[3 * (ptrdiff_t)t];
+    for (int k = 0; k < 3; k++) {
+        root[find(root, s->tri[3 * (ptrdiff_t)t + k])] = find(root, first);
+        root[find(root, s->tri[3 * (ptrdiff_t)hit + k])] = find(root, first);
+    }
+}
+
+static int32_t region_of(const struct pm_skin *s, const struct hits *h, ptrdiff_t k)
+{
+    return find(h->root, s->tri[3 * (ptrdiff_t)h->from[k]]);
+}
+
+static enum pm_status look(struct near *c, struct hits *h, struct pm_err *err)
+{
+    enum pm_status status;
+    const struct pm_skin *s = c->s;
+    const ptrdiff_t nn = s->m->nn;
+    PM_TRY(PM_NEW(h->from, s->nt, err));
+    PM_TRY(PM_NEW(h->ray, s->nt, err));
+    PM_TRY(PM_NEW(h->root, nn, err));
+    PM_TRY(PM_NEW(h->region, nn, err));
+    PM_TRY(PM_NEW(h->part, nn, err));
+    for (ptrdiff_t a = 0; a < nn; a++)
+        h->root[a] = (int32_t)a;
+    for (ptrdiff_t t = 0; t < s->nt; t++) {
+        const struct ray r = look_from(c, (int32_t)t);
+        if (r.hit < 0)
+            continue;
+        h->from[h->n] = (int32_t)t;
+        h->ray[h->n++] = r;
+        unite(s, h->root, (int32_t)t, r.hit);
+    }
+done:
+    return status;
+}
+
+/* Numbers the regions: the largest first, all beyond the parts in the last one. */
+static void number(struct near *c, struct hits *h)
+{
+    c->gradient = NULL;
+    for (ptrdiff_t k = 0; k < h->n; k++)
+        h->region[region_of(c->s, h, k)] += enter(c, h->from[k], &h->ray[k]);
+    for (ptrdiff_t a = 0; a < c->s->m->nn; a++)
+        h->part[a] = PM_CLOSENESS_PARTS - 1;
+    for (int p = 0; p < PM_CLOSENESS_PARTS - 1; p++) {
+        ptrdiff_t most = 0;
+        for (ptrdiff_t a = 1; a < c->s->m->nn; a++)
+            most = h->region[a] > h->region[most] ? a : most;
+        h->part[most] = h->region[most] > 0 ? (unsigned char)p : h->part[most];
+        h->region[most] = 0;
+    }
+}
+
+enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double G[PM_CLOSENESS_PARTS],
+                            double *dG_dx, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_skin s = {.nt = 0};
-    struct near c = {.s = &s, .d = m->pcase.gap_min, .gradient = dG_dx};
+    struct near c = {.s = &s, .d = m->pcase.gap_min};
+    struct hits h = {.n = 0};
+    const ptrdiff_t size = 3 * m->nn;
 
-    *G = 0;
+    memset(G, 0, PM_CLOSENESS_PARTS * sizeof *G);
     if (dG_dx != NULL)
-        memset(dG_dx, 0, 3 * (size_t)m->nn * sizeof *dG_dx);
+        memset(dG_dx, 0, PM_CLOSENESS_PARTS * (size_t)size * sizeof *dG_dx);
     if (!(c.d > 0))
         return PM_OK;
     PM_TRY(pm_skin_new(m, u, &s, err));
     PM_TRY(PM_NEW(c.id, s.nt, err));
-    for (ptrdiff_t t = 0; t < s.nt; t++)
-        *G += look_from(&c, (int32_t)t);
+    PM_TRY(look(&c, &h, err));
+    number(&c, &h);
     const double copies = (double)(1U << s.nplanes);
-    *G *= copies;
-    for (ptrdiff_t i = 0; i < 3 * m->nn && dG_dx != NULL; i++)
+    for (ptrdiff_t k = 0; k < h.n; k++) {
+        const int part = h.part[region_of(&s, &h, k)];
+        c.gradient = dG_dx != NULL ? dG_dx + size * part : NULL;
+        G[part] += copies * enter(&c, h.from[k], &h.ray[k]);
+    }
+    for (ptrdiff_t i = 0; i < PM_CLOSENESS_PARTS * size && dG_dx != NULL; i++)
         dG_dx[i] *= copies;
 done:
     pm_free(c.id);
+    pm_free(h.from);
+    pm_free(h.ray);
+    pm_free(h.root);
+    pm_free(h.region);
+    pm_free(h.part);
     pm_skin_release(&s);
     return status;
+}
+
+double pm_closeness_sum(const double G[PM_CLOSENESS_PARTS])
+{
+    double sum = 0;
+    for (int p = 0; p < PM_CLOSENESS_PARTS; p++)
+        sum += G[p];
+    return sum;
 }
 
 double pm_closeness_factor(double sum)

@@ -12,10 +12,14 @@
  *
  * of the whole body: a half model counts twice [model 7.1]. d: gap_min of the case [mm]; 0 gives
  * G = 0. It says nothing of bodies that pierce themselves.
- * dG_dx (nn x 3) = derivatives by the positions of the nodes [1/mm], NULL: not wanted. About nf log
- * nf. */
-enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double *G, double *dG_dx,
-                            struct pm_err *err);
+ * The terms are kept apart by region: those whose triangles hang together, or meet, make up one;
+ * the last part takes all but the largest of them. G is their sum. dG_dx (PM_CLOSENESS_PARTS x nn x
+ * 3) = derivatives of the parts by the positions of the nodes [1/mm], NULL: not wanted. About nf
+ * log nf. */
+enum { PM_CLOSENESS_PARTS = 8 };
+enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double G[PM_CLOSENESS_PARTS],
+                            double *dG_dx, struct pm_err *err);
+double pm_closeness_sum(const double G[PM_CLOSENESS_PARTS]);
 
 /* Factor of the objective, exp(-0.01 sum_g mult_g G_g) [model 7.1]; and d ln(factor)/dG_g for one
  * state of the symmetric whole. */

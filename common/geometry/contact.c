@@ -129,6 +129,7 @@ enum pm_status pm_contact_find(const struct pm_mesh *m, const double *u, struct 
     enum pm_status status;
     struct pm_skin s;
     struct pm_contact pierced;
+    double G[PM_CLOSENESS_PARTS];
 
     *c = (struct pm_self_contact){.gap = 0};
     PM_TRY(pm_skin_new(m, u, &s, err));
@@ -142,7 +143,8 @@ enum pm_status pm_contact_find(const struct pm_mesh *m, const double *u, struct 
     find_mirrored(&s, c);
     if (c->intersections == 0)
         find_gap(&s, c);
-    PM_TRY(pm_closeness(m, u, &c->closeness, NULL, err));
+    PM_TRY(pm_closeness(m, u, G, NULL, err));
+    c->closeness = pm_closeness_sum(G);
 done:
     pm_skin_release(&s);
     return status;

@@ -168,46 +168,66 @@ static int without_weight(const struct adjsens_point *pt)
     return !is_close(pt);
 }
 
+/* The closeness of the state by parts: the objective and one function of each. */
+static enum pm_status take_closeness(const struct adjsens_opts *o, struct adjsens_point *pt,
+                                     struct pm_objective *w, double *near, struct pm_sens *out,
+                                     struct pm_err *err)
+{
+    enum pm_status status;
+    const ptrdiff_t size = 3 * pt->m->nn;
+    double G[PM_CLOSENESS_PARTS];
+    if (o->form == PM_SHAPE_BOUNDARY)
+        PM_TRY(pm_fail(err, PM_INPUT,
+                       "the body comes closer to itself than gap_min: the boundary form does not "
+                       "know of that, expected gap_min = 0"));
+    PM_TRY(PM_NEW(out->close_value, PM_CLOSENESS_PARTS, err));
+    PM_TRY(PM_NEW(pt->near, size, err));
+    PM_TRY(pm_closeness(&pt->state.mesh, pt->state.u, G, near, err));
+    for (int p = 0; p < PM_CLOSENESS_PARTS; p++) {
+        if (!(G[p] > 0))
+            continue;
+        out->close_value[out->nclose++] = G[p];
+        w[out->nclose].x = near + size * p;
+        for (ptrdiff_t i = 0; i < size; i++)
+            pt->near[i] += pt->work.dw_dG[pt->row] * near[size * p + i];
+    }
+    w[0].x = pt->near;
+done:
+    return status;
+}
+
 static enum pm_status differentiate(const struct adjsens_opts *o, struct adjsens_point *pt,
                                     struct pm_sens *out, struct pm_err *err)
 {
+    enum { MOST = 1 + PM_CLOSENESS_PARTS };
     enum pm_status status;
     struct pm_mesh *mesh = &pt->state.mesh;
     const struct pm_adjoint_at at = adjsens_at(pt);
-    struct pm_objective w[2] = {{.V = {0}}, {.V = {0}}};
-    ptrdiff_t nc = mesh->nc;
-    double *D = NULL, *near = NULL, D_ref[6], G;
+    struct pm_objective w[MOST] = {{.V = {0}}};
+    const ptrdiff_t nc = mesh->nc, size = 3 * pt->m->nn;
+    double *D = NULL, *near = NULL, D_ref[3 * MOST];
     PM_TRY(PM_NEW(out->gradient, 3 * mesh->N, err));
-    PM_TRY(PM_NEW(D, 6 * pt->m->nn, err));
     for (ptrdiff_t l = 0; l < 6; l++) {
         w[0].U[l] = pt->work.dw_dU[6 * pt->row + l];
         for (ptrdiff_t r = 0; r < nc; r++)
             w[0].J[l][r] = pt->work.dw_dJ[6 * nc * pt->row + nc * l + r];
     }
-    if (is_close(pt) && o->form == PM_SHAPE_BOUNDARY)
-        PM_TRY(pm_fail(err, PM_INPUT,
-                       "the body comes closer to itself than gap_min: the boundary form does not "
-                       "know of that, expected gap_min = 0"));
-    const int close = is_close(pt);
-    if (close) {
-        PM_TRY(PM_NEW(out->closeness, 3 * mesh->N, err));
-        PM_TRY(PM_NEW(near, 3 * pt->m->nn, err));
-        PM_TRY(PM_NEW(pt->near, 3 * pt->m->nn, err));
-        PM_TRY(pm_closeness(mesh, pt->state.u, &G, near, err));
-        for (ptrdiff_t i = 0; i < 3 * pt->m->nn; i++)
-            pt->near[i] = near[i] * pt->work.dw_dG[pt->row];
-        w[0].x = pt->near;
-        w[1].x = near;
+    if (is_close(pt)) {
+        PM_TRY(PM_NEW(near, PM_CLOSENESS_PARTS * size, err));
+        PM_TRY(take_closeness(o, pt, w, near, out, err));
+        PM_TRY(PM_NEW(out->close_gradient, out->nclose * 3 * mesh->N, err));
     }
-    PM_TRY(pm_adjoint(&at, 1 + close, w, o->form, D, D_ref, err));
+    PM_TRY(PM_NEW(D, (1 + out->nclose) * size, err));
+    PM_TRY(pm_adjoint(&at, 1 + out->nclose, w, o->form, D, D_ref, err));
     if (o->form == PM_SHAPE_DOMAIN) {
         identities(pt, D, D_ref, out);
         pm_log(1, "identities: translation %.1e, scaling %.1e, rotation %.1e",
                out->identity_translation, out->identity_scaling, out->identity_rotation);
     }
     PM_TRY(adjsens_pull_back(pt, o->form, D, out->gradient, err));
-    if (close)
-        PM_TRY(adjsens_pull_back(pt, o->form, D + 3 * pt->m->nn, out->closeness, err));
+    for (ptrdiff_t k = 0; k < out->nclose; k++)
+        PM_TRY(adjsens_pull_back(pt, o->form, D + size * (1 + k),
+                                 out->close_gradient + 3 * mesh->N * k, err));
 done:
     pm_free(near);
     pm_free(D);

@@ -38,7 +38,8 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *objecti
     struct pm_config c = {0};
     struct pm_solve_report report;
     struct pm_solve_options o = pm_solve_default;
-    double *f = NULL, *V = NULL, *Jq = NULL, *J = NULL, *dJ = NULL, dU[6], w, most, G;
+    double *f = NULL, *V = NULL, *Jq = NULL, *J = NULL, *dJ = NULL, dU[6], w, most,
+           G[PM_CLOSENESS_PARTS];
     double *own = pt->work.J + 6 * nc * pt->row;
     o.tolerance = 2e-10; /* a little above the rounding floor of the residual */
     for (ptrdiff_t k = 0; k < 3 * mesh->nn; k++)
@@ -59,9 +60,9 @@ static enum pm_status evaluate(const struct probe *pr, double s, double *objecti
     memcpy(dJ, own, (size_t)(6 * nc) * sizeof *dJ);
     memcpy(own, J, (size_t)(6 * nc) * sizeof *own);
     pm_config_displacement(m, &c, pr->u);
-    PM_TRY(pm_closeness(mesh, pr->u, &G, NULL, err));
+    PM_TRY(pm_closeness(mesh, pr->u, G, NULL, err));
     *objective = value * pm_amplification(&mesh->pcase, pt->work.ng, pt->work.J, &most, NULL) *
-                 exp(pr->closeness_slope * (G - pt->work.closeness_at[pt->row])) *
+                 exp(pr->closeness_slope * (pm_closeness_sum(G) - pt->work.closeness_at[pt->row])) *
                  pm_closeness_factor(pt->work.closeness);
     memcpy(own, dJ, (size_t)(6 * nc) * sizeof *own);
 done:

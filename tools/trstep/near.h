@@ -1,4 +1,5 @@
-/* What the sub-problem knows of contact: the closeness G_g of the states that have one, by the
+/* What the sub-problem knows of contact: the closeness G_g of every region where a state is close
+ * to itself, by the
  * derivative of its root (Gauss-Newton: exact where a gap changes linearly), so that no gain is
  * promised beyond G = 0,
  *
@@ -12,7 +13,7 @@
 /* Rise of the sum along d (N x 3); slope (N x 3) += factor times its derivative unless NULL. */
 double near_at(const struct pm_step *s, const double *d, double factor, double *slope);
 
-/* The closeness of state g at the accepted trial, weight a = -d objective / dG: appended to s;
+/* The closeness of region g of the accepted trial, weight a = -d objective / dG: appended to s;
  * gradient (N x 3) is copied. */
 enum pm_status near_add(struct pm_step *s, double weight, double value, const double *gradient,
                         struct pm_err *err);

@@ -134,11 +134,13 @@ static enum pm_status sum_gradient(const struct trial *t, char *const *paths, in
         seen[s.load] = 1;
         const double weight = -t->work.dw_dG[s.load];
         for (ptrdiff_t i = 0; i < 3 * N; i++)
-            step->gradient[i] +=
-                s.gradient[i] + (s.closeness != NULL ? weight * s.closeness[i] : 0);
-        if (s.closeness != NULL) {
-            pm_symmetrise_vectors(&t->surfaces, s.closeness);
-            PM_TRY(near_add(step, weight, t->work.closeness_at[s.load], s.closeness, err));
+            step->gradient[i] += s.gradient[i];
+        for (ptrdiff_t r = 0; r < s.nclose; r++) {
+            double *g = s.close_gradient + 3 * N * r;
+            for (ptrdiff_t i = 0; i < 3 * N; i++)
+                step->gradient[i] += weight * g[i];
+            pm_symmetrise_vectors(&t->surfaces, g);
+            PM_TRY(near_add(step, weight, s.close_value[r], g, err));
         }
         pm_sens_release(&s);
     }
