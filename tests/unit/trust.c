@@ -110,6 +110,15 @@ static void check_contact(void)
     s.trial.pcase.contact_rejects = 1;
     trust_judge(&s, &w, &j);
     ok(!j.accepted && strstr(j.reason, "1 of 2 states") != NULL, "rejected: %s", j.reason);
+    struct pm_trial before = {.accepted = 1, .gap = -1};
+    s.trials = &before;
+    s.ntrials = 1;
+    trust_judge(&s, &w, &j);
+    ok(!j.accepted, "rejected: the last design was wide open");
+    before.gap = 0;
+    trust_judge(&s, &w, &j);
+    ok(j.accepted, "a step from a design that pierced itself");
+    s.ntrials = 0;
     pairs[1] = 0;
     trust_judge(&s, &w, &j);
     ok(j.accepted, "accepted without piercing");

@@ -19,6 +19,15 @@ static int count_pierced(const struct pm_work *work)
     return n;
 }
 
+/* Does the design that the trial starts from pierce itself? */
+static int starts_pierced(const struct pm_step *previous)
+{
+    for (ptrdiff_t i = previous->ntrials - 1; i >= 0; i--)
+        if (previous->trials[i].accepted)
+            return !(previous->trials[i].gap > 0 || previous->trials[i].gap < 0);
+    return 0;
+}
+
 void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j)
 {
     *j = (struct judgement){.renewed = previous != NULL && previous->renew};
@@ -31,7 +40,9 @@ void trust_judge(const struct pm_step *previous, const struct pm_work *work, str
         j->accepted = 1;
         return;
     }
-    const int pierced = previous->trial.pcase.contact_rejects ? count_pierced(work) : 0;
+    const int pierced = previous->trial.pcase.contact_rejects && !starts_pierced(previous)
+                            ? count_pierced(work)
+                            : 0;
     const double before = trust_merit(previous->value, previous->weight, previous->penalty);
     const double after = trust_merit(work->objective, previous->weight, previous->trial_penalty);
     const double promised =

@@ -20,7 +20,7 @@ struct judgement {
 /* previous NULL: the first design, accepted unless it records a failure; so is a renewed one.
  * Otherwise accepted if T itself rose, unless the step gave it up for less violation, and the merit
  * rose by at least a tenth of the prediction, and no state pierces itself where the case wants
- * that. */
+ * that and those of the last accepted design did not. */
 void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j);
 /* Radius after a judged trial: ratio below 0.1 or rejected: a third of the step; up to 0.3: 1/1.5;
  * above 0.75 with the step at a bound: 1.5 times, at most radius_max of the case; kept where the
