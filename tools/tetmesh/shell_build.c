@@ -45,6 +45,8 @@ enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirro
     struct pm_patch patch = {0};
     *shell = (struct pm_shell){.planes = y->planes};
     o.bound = opts->walls != NULL ? pm_walls_bound : NULL;
+    if (opts->walls != NULL && opts->walls->apart) /* what a sixth of the size left to meet */
+        o.size_min /= 4;
     o.data = &side;
     for (ptrdiff_t k = 0; k < s->ns; k++) {
         int kept;
