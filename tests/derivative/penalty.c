@@ -1,6 +1,6 @@
 /* Gradients of the constraints of trstep against differences, with feet that follow the surfaces,
  * and what the constraints measure. */
-#include "tools/trstep/penalty.h"
+#include "common/geometry/penalty.h"
 
 #include <stdio.h>
 
@@ -37,17 +37,17 @@ static int make(struct pm_surfaces *s, const struct limits *l)
 }
 
 /* L at phi + h d; the feet are found anew, the multipliers stay. */
-static double at(struct penalty *p, const double *phi, const double *d, double h,
+static double at(struct pm_penalty *p, const double *phi, const double *d, double h,
                  const double rho[2], ptrdiff_t n)
 {
-    struct penalty_value v = {.lagrangian = NAN};
+    struct pm_penalty_value v = {.lagrangian = NAN};
     double *q = NULL;
     if (PM_NEW(q, n, &err) != PM_OK)
         return NAN;
     for (ptrdiff_t i = 0; i < n; i++)
         q[i] = phi[i] + h * d[i];
-    if (penalty_collect(p, q, 0.5, 0.5, &err) == PM_OK)
-        penalty_at(p, q, rho, NULL, &v);
+    if (pm_penalty_collect(p, q, 0.5, 0.5, &err) == PM_OK)
+        pm_penalty_at(p, q, rho, NULL, &v);
     pm_free(q);
     return v.lagrangian;
 }
@@ -55,11 +55,11 @@ static double at(struct penalty *p, const double *phi, const double *d, double h
 static void check_gradient(const char *name, const struct limits *l, const double rho[2])
 {
     struct pm_surfaces s;
-    struct penalty p = {0};
-    struct penalty_value v;
+    struct pm_penalty p = {0};
+    struct pm_penalty_value v;
     double *phi = NULL, *g = NULL, *d = NULL, slope = 0;
 
-    if (!make(&s, l) || penalty_new(&s, &p, &err) != PM_OK) {
+    if (!make(&s, l) || pm_penalty_new(&s, &p, &err) != PM_OK) {
         ok(0, "%s: %s", name, err.text);
         return;
     }
@@ -69,9 +69,9 @@ static void check_gradient(const char *name, const struct limits *l, const doubl
     pm_surfaces_gather(&s, phi);
     for (ptrdiff_t i = 0; i < n; i++)
         d[i] = sin(1 + 0.37 * (double)i * (double)(i % 7));
-    ok(penalty_collect(&p, phi, 0.5, 0.5, &err) == PM_OK, "%s: feet", name);
-    penalty_raise(&p, phi, (const double[]){0.3, 0.3});
-    penalty_at(&p, phi, rho, g, &v);
+    ok(pm_penalty_collect(&p, phi, 0.5, 0.5, &err) == PM_OK, "%s: feet", name);
+    pm_penalty_raise(&p, phi, (const double[]){0.3, 0.3});
+    pm_penalty_at(&p, phi, rho, g, &v);
     for (ptrdiff_t i = 0; i < n; i++)
         slope += g[i] * d[i];
     const double h = 1e-5;
@@ -83,7 +83,7 @@ static void check_gradient(const char *name, const struct limits *l, const doubl
     pm_free(phi);
     pm_free(g);
     pm_free(d);
-    penalty_release(&p);
+    pm_penalty_release(&p);
     pm_surfaces_release(&s);
 }
 
@@ -97,14 +97,14 @@ static void shift(const struct pm_surfaces *s, double *phi, double dx)
 static void check_measured(void)
 {
     struct pm_surfaces s;
-    struct penalty p = {0};
-    struct penalty_value v;
+    struct pm_penalty p = {0};
+    struct pm_penalty_value v;
     const struct limits l = {3, 1, 2, ""};
     const double rho[2] = {0, 1};
     struct pm_approach near[4];
     double *phi = NULL, *g = NULL;
 
-    if (!make(&s, &l) || penalty_new(&s, &p, &err) != PM_OK ||
+    if (!make(&s, &l) || pm_penalty_new(&s, &p, &err) != PM_OK ||
         PM_NEW(phi, 3 * s.offset[2], &err) != PM_OK || PM_NEW(g, 3 * s.offset[2], &err) != PM_OK) {
         ok(0, "%s", err.text);
         return;
@@ -112,16 +112,16 @@ static void check_measured(void)
     pm_surfaces_gather(&s, phi);
     shift(&s, phi, 2);
     pm_surfaces_scatter(&s, phi);
-    ok(penalty_collect(&p, phi, 0, 1, &err) == PM_OK, "feet");
-    penalty_at(&p, phi, rho, NULL, &v);
+    ok(pm_penalty_collect(&p, phi, 0, 1, &err) == PM_OK, "feet");
+    pm_penalty_at(&p, phi, rho, NULL, &v);
     ok(pm_distance_nearest(&s, &p.samples, 4, near, &err) == PM_OK, "nearest");
     /* samples miss the thinnest place by less than cover^2/2 (1/10 - 1/14), the curvatures */
     near_abs("worst wall", v.worst[1], 1 - near[1].distance / 3, p.cover * p.cover * 0.015 / 3);
     ok(v.worst[0] == 0, "no curvature above 1 /mm");
     /* the chamber crosses the exterior by about 1 mm: it is pulled back, the exterior outwards */
     shift(&s, phi, 2.5);
-    ok(penalty_collect(&p, phi, 0, 1, &err) == PM_OK, "feet");
-    penalty_at(&p, phi, rho, g, &v);
+    ok(pm_penalty_collect(&p, phi, 0, 1, &err) == PM_OK, "feet");
+    pm_penalty_at(&p, phi, rho, g, &v);
     ok(v.worst[1] > 1 && v.worst[1] < 2, "a wall of -1 mm lacks 4 of 3 mm: %g", v.worst[1]);
     double pull[2] = {0};
     for (ptrdiff_t m = 0; m < s.offset[2]; m++)
@@ -129,7 +129,7 @@ static void check_measured(void)
     ok(pull[0] > 0 && pull[1] < 0, "forces part them the right way: %g %g", pull[0], pull[1]);
     pm_free(phi);
     pm_free(g);
-    penalty_release(&p);
+    pm_penalty_release(&p);
     pm_surfaces_release(&s);
 }
 

@@ -3,8 +3,10 @@
 #include <stdio.h>
 
 #include "common/base/memory.h"
+#include "common/geometry/check.h"
 #include "common/geometry/collide.h"
 #include "common/geometry/curvature.h"
+#include "common/geometry/penalty.h"
 #include "common/geometry/remesh.h"
 #include "tools/surfremesh/compare.h"
 #include "tools/surfremesh/exterior.h"
@@ -12,6 +14,7 @@
 #include "tools/surfremesh/spacing.h"
 
 static const double DISTANCE_MAX = 0.3, VOLUME_OFF = 0.005, CV_GOOD = 0.2, UNEVEN_GOOD = 2;
+static const double CURVATURE_OVER = 0.25, WALL_UNDER = 0.02, MEAN_OFF = 1.0 / 250;
 
 /* The first objection stays. */
 __attribute__((format(printf, 2, 3))) static void object(struct rebuild *r, const char *format, ...)
@@ -26,9 +29,16 @@ __attribute__((format(printf, 2, 3))) static void object(struct rebuild *r, cons
     va_end(args);
 }
 
+/* Unasked renewals may not move the measure: it goes with the cube of the walls and more. */
+static double mean_max(const struct rebuild *r)
+{
+    const int asked = r->o->spacing > 0 || r->o->points > 0;
+    return asked ? DISTANCE_MAX : MEAN_OFF * r->from->pcase.wall_min;
+}
+
 int rebuild_misses(const struct rebuild *r, ptrdiff_t k)
 {
-    return !(r->report->max[k] <= DISTANCE_MAX &&
+    return !(r->report->max[k] <= DISTANCE_MAX && r->report->mean[k] <= mean_max(r) &&
              fabs(r->report->volume_ratio[k] - 1) <= VOLUME_OFF);
 }
 
@@ -63,6 +73,11 @@ static void judge(struct rebuild *r, ptrdiff_t k)
     if (!drifts && !(p->max[k] <= DISTANCE_MAX))
         object(r, "surface %td: new surface lies up to %.3f mm off the old one, expected <= %g", k,
                p->max[k], DISTANCE_MAX);
+    if (!drifts && !(p->mean[k] <= mean_max(r)))
+        object(
+            r,
+            "surface %td: new surface lies %.4f mm off the old one in the mean, expected <= %.4f",
+            k, p->mean[k], mean_max(r));
     if (!drifts && !(fabs(p->volume_ratio[k] - 1) <= VOLUME_OFF))
         object(r, "surface %td: enclosed volume changes by %.2f %%, expected <= %g %%", k,
                100 * (p->volume_ratio[k] - 1), 100 * VOLUME_OFF);
@@ -97,29 +112,54 @@ done:
     return status;
 }
 
+static void blame(struct rebuild *r, ptrdiff_t a, ptrdiff_t b)
+{
+    if (r->report->reason[0] != '\0')
+        return;
+    r->blame[0] = r->source[a];
+    r->blame[1] = r->source[b];
+}
+
+static void judge_breach(struct rebuild *r, const struct rebuild_breach *now)
+{
+    const ptrdiff_t ns = r->from->ns;
+
+    for (ptrdiff_t k = 0; k < ns; k++) {
+        if (!(now->curvature[k] > fmax(CURVATURE_OVER, r->before.curvature[k])))
+            continue;
+        blame(r, k, k);
+        object(r, "surface %td: curvature would be %.3g above its limit, the old one's is %.3g", k,
+               now->curvature[k], r->before.curvature[k]);
+    }
+    for (ptrdiff_t k = 0; k < ns * ns; k++) {
+        const ptrdiff_t a = k / ns, b = k % ns;
+        if (!(now->wall[k] > fmax(WALL_UNDER, r->before.wall[k])))
+            continue;
+        blame(r, a, b);
+        if (a == b)
+            object(r, "surface %td: its own walls would be %.3g too thin, the old ones are %.3g", a,
+                   now->wall[k], r->before.wall[k]);
+        else
+            object(r,
+                   "wall between surfaces %td and %td would be %.3g too thin, the old one is %.3g",
+                   a, b, now->wall[k], r->before.wall[k]);
+    }
+}
+
 enum pm_status rebuild_judge_robot(struct rebuild *r, const struct pm_surfaces *to,
                                    struct pm_err *err)
 {
-    enum pm_status status = PM_OK;
-    const struct pm_check *before = &r->before;
-    struct pm_check after;
-    double wall = to->pcase.wall_min;
+    enum pm_status status;
+    struct pm_check check;
+    struct rebuild_breach now;
 
     r->report->reason[0] = '\0';
     r->blame[0] = r->blame[1] = -1;
-    PM_TRY(pm_surfaces_measure(to, &after, err));
-    if (after.fault[0] != '\0')
-        object(r, "%s", after.fault);
-    if (after.wall.distance < fmin(wall, before->wall.distance - 0.02 * wall)) {
-        r->blame[0] = r->source[after.wall.a];
-        r->blame[1] = r->source[after.wall.b];
-        object(r, "wall between surfaces %d and %d shrinks from %.3f to %.3f at (%.4g, %.4g, %.4g)",
-               after.wall.a, after.wall.b, before->wall.distance, after.wall.distance,
-               after.wall.x[0], after.wall.x[1], after.wall.x[2]);
-    }
-    if (after.cap < fmin(to->pcase.cap_min, before->cap - 0.02 * wall))
-        object(r, "distance from the end planes shrinks from %.3f to %.3f mm", before->cap,
-               after.cap);
+    PM_TRY(pm_surfaces_measure(to, &check, err));
+    if (check.fault[0] != '\0')
+        object(r, "%s", check.fault);
+    PM_TRY(pm_penalty_survey(to, now.curvature, now.wall, err));
+    judge_breach(r, &now);
 done:
     return status;
 }

@@ -2,6 +2,7 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/geometry/samples.h"
 #include "common/geometry/symmetry.h"
 #include "tools/surfremesh/exterior.h"
 #include "tools/surfremesh/rebuild.h"

@@ -2,8 +2,13 @@
 #ifndef PM_SURFREMESH_REBUILD_H
 #define PM_SURFREMESH_REBUILD_H
 
-#include "common/geometry/check.h"
 #include "tools/surfremesh/surfremesh.h"
+
+/* What surfaces break of what trials hold (penalty.h). */
+struct rebuild_breach {
+    double curvature[PM_MAX_CHAMBERS + 1];                      /* (ns) */
+    double wall[(PM_MAX_CHAMBERS + 1) * (PM_MAX_CHAMBERS + 1)]; /* (ns x ns), a <= b */
+};
 
 struct rebuild {
     const struct pm_surfaces *from;
@@ -18,8 +23,8 @@ struct rebuild {
     struct pm_surface made[PM_MAX_CHAMBERS + 1]; /* new ones, of the first of an orbit */
     /* parameters of the old surface at the new control points (n x 3), NULL where they are Phi */
     double *carried[PM_MAX_CHAMBERS + 1];
-    ptrdiff_t blame[2];     /* the surfaces that the joined result fails by, -1: any */
-    struct pm_check before; /* of the old surfaces */
+    ptrdiff_t blame[2];           /* the surfaces that the joined result fails by, -1: any */
+    struct rebuild_breach before; /* by the old surfaces */
     struct surfremesh_report *report;
 };
 
@@ -35,14 +40,18 @@ enum pm_status rebuild_plan(struct rebuild *r, struct pm_err *err);
 enum pm_status rebuild_surface(struct rebuild *r, ptrdiff_t k, struct pm_err *err);
 /* All surfaces together, the new ones where redo says so, with their images, symmetric. */
 enum pm_status rebuild_join(const struct rebuild *r, struct pm_surfaces *to, struct pm_err *err);
+/* Moves the control points of the new surfaces in *s and in made as little as brings curvature
+ * and walls near their limits (polish.c). */
+enum pm_status rebuild_polish(struct rebuild *r, struct pm_surfaces *s, struct pm_err *err);
 /* Enters surface k, its images too, in the report; its reason says what is not acceptable: distance
- * above 0.3 mm either way, volume off by more than 0.5 %, spacing worse, a fold, a surface through
- * itself. The paper's method drifts: its distance and volume are reported, not judged. */
+ * above 0.3 mm either way, unasked a mean above wall_min/250, volume off by more than 0.5 %,
+ * spacing worse, a fold, a surface through itself. The paper's method drifts: its distance and
+ * volume are reported, not judged. */
 enum pm_status rebuild_judge_surface(struct rebuild *r, ptrdiff_t k, struct pm_err *err);
 /* Does the new surface k lie too far off the old one, or its volume? */
 int rebuild_misses(const struct rebuild *r, ptrdiff_t k);
-/* The same for all together: a fault of pm_surfaces_measure, walls or caps thinner than allowed
- * that were not so before; blame says by which surfaces. */
+/* The same for all together: a fault of pm_surfaces_measure, curvature 25 % above its limit, walls,
+ * voids or caps 2 % below theirs, unless the old ones were worse; blame says by which surfaces. */
 enum pm_status rebuild_judge_robot(struct rebuild *r, const struct pm_surfaces *to,
                                    struct pm_err *err);
 

@@ -5,6 +5,7 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/geometry/penalty.h"
 #include "tools/surfremesh/rebuild.h"
 
 enum pm_status surfremesh_report_init(struct surfremesh_report *r, ptrdiff_t ns, struct pm_err *err)
@@ -47,6 +48,17 @@ static void report_kept(struct rebuild *r, ptrdiff_t k)
         p->volume_ratio[i] = 1;
         p->bend[i] = 1;
     }
+}
+
+static void report_renewed(const struct rebuild *r, ptrdiff_t k)
+{
+    const struct surfremesh_report *p = r->report;
+
+    pm_log(1,
+           "surface %td: %td control points for %td, spacing variation %.3f -> %.3f, distance mean "
+           "%.4f max %.4f mm, volume %+.3f %%, curvature %.3f",
+           k, r->made[k].n, r->from->s[k].n, p->spacing_before[k], p->spacing_after[k], p->mean[k],
+           p->max[k], 100 * (p->volume_ratio[k] - 1), p->bend[k]);
 }
 
 /* Leaves it as it was, for the present reason. */
@@ -99,7 +111,7 @@ static enum pm_status refuse(struct rebuild *r, enum pm_status status, const str
  * form. The reason says why it is not acceptable. */
 static enum pm_status renew(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
 {
-    enum { ATTEMPTS = 3 };
+    enum { ATTEMPTS = 5 };
     enum pm_status status;
     const struct surfremesh_report *p = r->report;
 
@@ -111,11 +123,7 @@ static enum pm_status renew(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
         const int judged = status == PM_OK;
         PM_TRY(refuse(r, status, &why, err));
         if (judged)
-            pm_log(1,
-                   "surface %td: %td control points for %td, spacing variation %.3f -> %.3f, "
-                   "distance mean %.4f max %.4f mm, volume %+.3f %%, curvature %.3f",
-                   k, r->made[k].n, r->from->s[k].n, p->spacing_before[k], p->spacing_after[k],
-                   p->mean[k], p->max[k], 100 * (p->volume_ratio[k] - 1), p->bend[k]);
+            report_renewed(r, k);
         if (p->reason[0] == '\0' || !judged || i == ATTEMPTS || !rebuild_misses(r, k) ||
             !refine(r, k))
             break;
@@ -130,7 +138,16 @@ static enum pm_status join(struct rebuild *r, struct pm_surfaces *to, struct pm_
     enum pm_status status = rebuild_join(r, to, &why);
 
     r->blame[0] = r->blame[1] = -1;
+    r->report->reason[0] = '\0';
     if (status == PM_OK)
+        status = rebuild_polish(r, to, &why);
+    for (ptrdiff_t k = 0; status == PM_OK && k < r->from->ns && r->report->reason[0] == '\0'; k++)
+        if (r->redo[k] && r->source[k] == k) {
+            status = rebuild_judge_surface(r, k, &why);
+            r->blame[0] = r->blame[1] = r->report->reason[0] != '\0' ? k : -1;
+            report_renewed(r, k);
+        }
+    if (status == PM_OK && r->report->reason[0] == '\0')
         status = rebuild_judge_robot(r, to, &why);
     return refuse(r, status, &why, err);
 }
@@ -215,7 +232,7 @@ enum pm_status pm_surfremesh(const struct pm_surfaces *from, const struct surfre
         if (!r.redo[k] && r.source[k] == k)
             report_kept(&r, k);
     if (any) {
-        PM_TRY(pm_surfaces_measure(from, &r.before, err));
+        PM_TRY(pm_penalty_survey(from, r.before.curvature, r.before.wall, err));
         PM_TRY(renew_all(&r, to, err));
     } else {
         pm_log(1, "control points are even, nothing to do");

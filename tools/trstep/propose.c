@@ -4,9 +4,9 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/geometry/penalty.h"
 #include "common/geometry/symmetry.h"
 #include "tools/trstep/near.h"
-#include "tools/trstep/penalty.h"
 #include "tools/trstep/secants.h"
 #include "tools/trstep/subproblem.h"
 #include "tools/trstep/trstep.h"
@@ -24,7 +24,7 @@ enum { ROUNDS = 12, HALVINGS = 8, REVISIONS = 3 };
 
 struct proposal {
     struct pm_step *s;
-    struct penalty penalty;
+    struct pm_penalty penalty;
     struct secants secants;
     ptrdiff_t N;
     double rho[2];
@@ -45,9 +45,9 @@ static void move(struct proposal *p, const double *step)
 static double penalise(void *context, const double *step, double *gradient)
 {
     struct proposal *p = context;
-    struct penalty_value v;
+    struct pm_penalty_value v;
     move(p, step);
-    penalty_at(&p->penalty, p->trial, p->rho, gradient, &v);
+    pm_penalty_at(&p->penalty, p->trial, p->rho, gradient, &v);
     return v.lagrangian - secants_at(&p->secants, step, -1, gradient) +
            near_at(p->s, step, 1, gradient);
 }
@@ -81,14 +81,14 @@ static double reach(const struct pm_step *s)
 }
 
 /* All constraints at phi, as the samples of q see them. */
-static enum pm_status measure(const struct proposal *p, struct penalty *q, const double *phi,
+static enum pm_status measure(const struct proposal *p, struct pm_penalty *q, const double *phi,
                               double sum[2], double worst[2], struct pm_err *err)
 {
     enum pm_status status;
-    struct penalty_value v;
+    struct pm_penalty_value v;
 
-    PM_TRY(penalty_collect(q, phi, reach(p->s), 0.8, err));
-    penalty_at(q, phi, p->rho, NULL, &v);
+    PM_TRY(pm_penalty_collect(q, phi, reach(p->s), 0.8, err));
+    pm_penalty_at(q, phi, p->rho, NULL, &v);
     memcpy(sum, v.sum, sizeof v.sum);
     memcpy(worst, v.worst, sizeof v.worst);
 done:
@@ -135,11 +135,11 @@ static enum pm_status solve(struct proposal *p, struct pm_err *err)
 
     for (int round = 0; round < ROUNDS; round++) {
         PM_TRY(subproblem_solve(&problem, p->step, err));
-        const double part = penalty_safe_part(&p->penalty, p->phi, p->step);
+        const double part = pm_penalty_safe_part(&p->penalty, p->phi, p->step);
         for (ptrdiff_t i = 0; i < 3 * p->N; i++)
             p->step[i] *= part;
         move(p, p->step);
-        penalty_raise(&p->penalty, p->trial, p->rho);
+        pm_penalty_raise(&p->penalty, p->trial, p->rho);
         PM_TRY(complete(p, err));
         pm_log(2, "round %d: gain %.4g, violations %.4f %.4f, %td walls, step %.3g, part %g", round,
                s->gain, s->trial_worst[0], s->trial_worst[1], p->penalty.nwall, s->rms_step, part);
@@ -156,7 +156,7 @@ done:
 }
 
 /* Samples placed for the proposal, with its constraints and what they see of it. */
-static enum pm_status look(struct proposal *p, struct penalty *fresh, double seen[2],
+static enum pm_status look(struct proposal *p, struct pm_penalty *fresh, double seen[2],
                            struct pm_err *err)
 {
     enum pm_status status;
@@ -166,7 +166,7 @@ static enum pm_status look(struct proposal *p, struct penalty *fresh, double see
     move(p, p->step);
     pm_symmetrise_points(&s->accepted, p->trial);
     pm_surfaces_scatter(&s->trial, p->trial);
-    PM_TRY(penalty_new(&s->trial, fresh, err));
+    PM_TRY(pm_penalty_new(&s->trial, fresh, err));
     PM_TRY(measure(p, fresh, p->trial, sum, seen, err));
 done:
     return status;
@@ -178,7 +178,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_step *s = p->s;
-    struct penalty fresh = {.s = NULL};
+    struct pm_penalty fresh = {.s = NULL};
     double seen[2] = {0};
 
     p->peak = 0;
@@ -186,7 +186,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
         PM_TRY(solve(p, err));
         if (!fit(s, ALLOWED))
             goto done;
-        penalty_release(&fresh);
+        pm_penalty_release(&fresh);
         PM_TRY(look(p, &fresh, seen, err));
         pm_log(2, "seen: %.4f %.4f", seen[0], seen[1]);
         const double held = s->trial_worst[0];
@@ -197,7 +197,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
         p->peak = seen[0];
         if (good)
             break;
-        const struct penalty old = p->penalty;
+        const struct pm_penalty old = p->penalty;
         p->penalty = fresh;
         fresh = old;
         /* what they see of the start is part of it */
@@ -206,7 +206,7 @@ static enum pm_status solve_seen(struct proposal *p, struct pm_err *err)
             s->worst[j] = fmax(s->worst[j], seen[j]);
     }
 done:
-    penalty_release(&fresh);
+    pm_penalty_release(&fresh);
     return status;
 }
 
@@ -232,7 +232,7 @@ static enum pm_status search(struct proposal *p, struct pm_err *err)
         for (ptrdiff_t i = 0; i < 3 * p->N; i++)
             p->step[i] /= 2;
         move(p, p->step);
-        penalty_relax(&p->penalty);
+        pm_penalty_relax(&p->penalty);
         PM_TRY(complete(p, err));
     }
     /* The constraints make this step short, not distrust: the next may be longer. */
@@ -263,8 +263,8 @@ static enum pm_status prepare(struct proposal *p, struct pm_err *err)
     PM_TRY(PM_NEW(p->trial, 3 * p->N, err));
     PM_TRY(PM_NEW(p->mass, p->N, err));
     pm_surfaces_gather(&s->accepted, p->phi);
-    PM_TRY(penalty_new(&s->accepted, &p->penalty, err));
-    subproblem_mass(&s->accepted, &p->penalty.samples, p->mass);
+    PM_TRY(pm_penalty_new(&s->accepted, &p->penalty, err));
+    pm_penalty_mass(&p->penalty, p->mass);
     PM_TRY(secants_new(s, p->mass, &p->secants, err));
     const struct subproblem problem = subproblem_of(p);
     const double scale = subproblem_dual_norm(&problem, s->gradient) * s->accepted.pcase.wall_min;
@@ -294,32 +294,11 @@ enum pm_status trstep_propose(struct pm_step *s, struct pm_err *err)
         memcpy(s->trial_worst, s->worst, sizeof s->worst);
     }
 done:
-    penalty_release(&p.penalty);
+    pm_penalty_release(&p.penalty);
     secants_release(&p.secants);
     pm_free(p.phi);
     pm_free(p.step);
     pm_free(p.trial);
     pm_free(p.mass);
-    return status;
-}
-
-enum pm_status trstep_measure(const struct pm_surfaces *s, double sum[2], double worst[2],
-                              struct pm_err *err)
-{
-    enum pm_status status;
-    struct penalty p = {.s = NULL};
-    struct penalty_value v;
-    double *phi = NULL;
-
-    PM_TRY(PM_NEW(phi, 3 * s->offset[s->ns], err));
-    pm_surfaces_gather(s, phi);
-    PM_TRY(penalty_new(s, &p, err));
-    PM_TRY(penalty_collect(&p, phi, 0, 1, err));
-    penalty_at(&p, phi, (const double[]){0, 0}, NULL, &v);
-    memcpy(sum, v.sum, sizeof v.sum);
-    memcpy(worst, v.worst, sizeof v.worst);
-done:
-    penalty_release(&p);
-    pm_free(phi);
     return status;
 }

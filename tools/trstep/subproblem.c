@@ -1,11 +1,10 @@
 #include "tools/trstep/subproblem.h"
 
-#include <lbfgs.h>
 #include <math.h>
 #include <string.h>
 
-#include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/base/minimise.h"
 
 /* Weights of the two bounds relative to the largest linear gain: 4 BALL t (t^2 - 1) = 1 at the end
  * of an unconstrained step, t = 1.012, which the scaling removes. */
@@ -16,7 +15,6 @@ struct scaled {
     double gain;   /* largest linear gain |G|* radius, the unit of the objective */
     double *step;  /* (N x 3) */
     double *slope; /* derivative by step (N x 3) */
-    ptrdiff_t evaluations;
 };
 
 double subproblem_norm(const struct subproblem *s, const double *step)
@@ -42,18 +40,13 @@ static double point_square(const double *step)
 
 /* Unknowns z = M^(1/2) step/radius: the ball is |z| <= 1, and the result does not depend on how
  * dense the control points are. */
-static lbfgsfloatval_t evaluate(void *instance, const lbfgsfloatval_t *z, lbfgsfloatval_t *g,
-                                const int n, const lbfgsfloatval_t length)
+static double evaluate(void *context, const double *z, double *g)
 {
-    struct scaled *c = instance;
+    struct scaled *c = context;
     const struct subproblem *s = c->s;
     const double cap = 4 * s->radius * s->radius;
     double f = 0, ball = -1;
 
-    (void)length;
-    c->evaluations++;
-    for (ptrdiff_t i = 3 * s->N; i < n; i++) /* SSE builds of the library round n up */
-        g[i] = 0;
     for (ptrdiff_t i = 0; i < 3 * s->N; i++) {
         c->step[i] = z[i] * s->radius / sqrt(s->mass[i / 3]);
         c->slope[i] = -s->gradient[i];
@@ -91,87 +84,28 @@ static void bound_step(const struct subproblem *s, double *step)
         step[i] *= s->radius / norm;
 }
 
-/* Interpolation cannot bracket where a step folds a surface (infinite curvature); halving survives
- * that but may miss the narrow range of a steep penalty. Each takes over where the other gives up,
- * from the best point so far. */
-static enum pm_status minimise(struct scaled *c, ptrdiff_t n, lbfgsfloatval_t *z,
-                               struct pm_err *err)
-{
-    static const int searches[] = {LBFGS_LINESEARCH_MORETHUENTE,
-                                   LBFGS_LINESEARCH_BACKTRACKING_STRONG_WOLFE,
-                                   LBFGS_LINESEARCH_MORETHUENTE};
-    lbfgs_parameter_t parameter;
-    lbfgsfloatval_t f = 0;
-    int end = -1;
-
-    lbfgs_parameter_init(&parameter);
-    parameter.m = 10;
-    parameter.max_iterations = 50;
-    parameter.epsilon = 1e-3;
-    parameter.past = 5; /* also ends where five iterations gain less than 3e-4 of the objective */
-    parameter.delta = 3e-4;
-    for (int k = 0; k < 3 && end < 0 && end != LBFGSERR_MAXIMUMITERATION; k++) {
-        parameter.linesearch = searches[k];
-        end = lbfgs((int)n, z, &f, evaluate, NULL, c, &parameter);
-        pm_log(2, "L-BFGS: code %d after %td evaluations, objective %.4g", end, c->evaluations,
-               f - 2);
-        if (end == LBFGSERR_OUTOFMEMORY)
-            return pm_fail(err, PM_SYSTEM, "out of memory");
-    }
-    return PM_OK;
-}
-
 enum pm_status subproblem_solve(const struct subproblem *s, double *step, struct pm_err *err)
 {
     enum pm_status status;
     const ptrdiff_t n = 3 * s->N;
     struct scaled c = {
         .s = s, .gain = s->radius * subproblem_dual_norm(s, s->gradient), .step = step};
-    lbfgsfloatval_t *z = lbfgs_malloc((int)n);
+    double *z = NULL;
 
-    if (z == NULL)
-        return pm_fail(err, PM_SYSTEM, "out of memory");
+    PM_TRY(PM_NEW(z, n, err));
     PM_TRY(PM_NEW(c.slope, n, err));
     if (!(c.gain > 0) || !isfinite(c.gain))
         PM_TRY(pm_fail(err, PM_NUMERIC,
                        "the gradient of the measure is %g, expected a positive norm", c.gain));
     for (ptrdiff_t i = 0; i < n; i++)
         z[i] = step[i] * sqrt(s->mass[i / 3]) / s->radius;
-    PM_TRY(minimise(&c, n, z, err));
+    PM_TRY(pm_minimise(n, z, evaluate, &c, err));
     for (ptrdiff_t i = 0; i < n; i++)
         step[i] = z[i] * s->radius / sqrt(s->mass[i / 3]);
     s->project(s->context, step);
     bound_step(s, step);
 done:
     pm_free(c.slope);
-    lbfgs_free(z);
+    pm_free(z);
     return status;
-}
-
-void subproblem_mass(const struct pm_surfaces *s, const struct pm_samples *samples, double *mass)
-{
-    const ptrdiff_t N = s->offset[s->ns], nops = s->pcase.symmetry.nops;
-    double area = 0;
-
-    memset(mass, 0, (size_t)N * sizeof *mass);
-    for (ptrdiff_t q = 0; q < samples->n; q++) {
-        area += samples->area[q];
-        for (ptrdiff_t w = samples->ptr[q]; w < samples->ptr[q + 1]; w++)
-            mass[samples->col[w]] += samples->area[q] * samples->c[w];
-    }
-    /* Orbits: images are visited from their first member, every member gets the mean. A floor keeps
-     * points that hardly move a surface from taking all of a step. */
-    for (ptrdiff_t i = 0; i < N; i++) {
-        ptrdiff_t first = i;
-        double sum = 0;
-        for (ptrdiff_t g = 0; g < nops; g++)
-            first = s->perm[g * N + i] < first ? s->perm[g * N + i] : first;
-        if (first < i)
-            continue;
-        for (ptrdiff_t g = 0; g < nops; g++)
-            sum += mass[s->perm[g * N + i]];
-        const double mean = fmax(sum / (double)nops / area, 0.01 / (double)N);
-        for (ptrdiff_t g = 0; g < nops; g++)
-            mass[s->perm[g * N + i]] = mean;
-    }
 }

@@ -6,7 +6,7 @@
 #ifndef TRSTEP_SUBPROBLEM_H
 #define TRSTEP_SUBPROBLEM_H
 
-#include "tools/trstep/penalty.h"
+#include "common/geometry/penalty.h"
 
 /* What the solver minimises besides the linear term; gradient += , returns the value. */
 typedef double (*subproblem_penalty)(void *context, const double *step, double *gradient);
@@ -28,7 +28,5 @@ enum pm_status subproblem_solve(const struct subproblem *s, double *step, struct
 double subproblem_norm(const struct subproblem *s, const double *step);
 /* Dual norm of a gradient: the largest G.step with |step|_M <= 1. */
 double subproblem_dual_norm(const struct subproblem *s, const double *gradient);
-/* Lumped mass of the control points over the area, averaged over symmetry orbits; mass (N). */
-void subproblem_mass(const struct pm_surfaces *s, const struct pm_samples *samples, double *mass);
 
 #endif

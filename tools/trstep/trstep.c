@@ -7,6 +7,7 @@
 #include "common/base/log.h"
 #include "common/base/memory.h"
 #include "common/files/sens.h"
+#include "common/geometry/penalty.h"
 #include "common/geometry/symmetry.h"
 #include "tools/trstep/near.h"
 #include "tools/trstep/secants.h"
@@ -61,9 +62,15 @@ static enum pm_status judge_rebuilt(struct trial *t, struct pm_err *err)
     static const double allowed[2] = {0.3, 0.025};
     static const char *const what[2] = {"curvature", "walls"};
     enum pm_status status;
-    double sum[2], worst[2];
+    const ptrdiff_t ns = t->surfaces.ns;
+    double curvature[PM_MAX_CHAMBERS + 1], wall[(PM_MAX_CHAMBERS + 1) * (PM_MAX_CHAMBERS + 1)];
+    double worst[2] = {0};
 
-    PM_TRY(trstep_measure(&t->surfaces, sum, worst, err));
+    PM_TRY(pm_penalty_survey(&t->surfaces, curvature, wall, err));
+    for (ptrdiff_t k = 0; k < ns; k++)
+        worst[0] = fmax(worst[0], curvature[k]);
+    for (ptrdiff_t k = 0; k < ns * ns; k++)
+        worst[1] = fmax(worst[1], wall[k]);
     for (int k = 0; k < 2; k++)
         if (worst[k] > fmax(allowed[k], t->previous.worst[k])) {
             t->judgement.accepted = 0;

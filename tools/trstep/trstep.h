@@ -24,10 +24,6 @@ enum pm_status trstep_run(const struct trstep_opts *opts, const struct pm_common
  * verdict becomes stalled where no step holds them or gains merit; then, and where it is not
  * "continue" already, or the design is to be renewed, the trial is the accepted design. */
 enum pm_status trstep_propose(struct pm_step *step, struct pm_err *err);
-/* Penalties of a set of surfaces and their largest violations, of curvature and walls, as a step
- * file holds them. */
-enum pm_status trstep_measure(const struct pm_surfaces *s, double sum[2], double worst[2],
-                              struct pm_err *err);
 
 /* Prints the history, the verdict or the kind of proposal of a step file to stdout. */
 enum pm_status trstep_print(const struct trstep_opts *opts, struct pm_err *err);

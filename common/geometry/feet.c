@@ -1,5 +1,5 @@
 /* Which constraints may become active, and the feet of the walls. */
-#include "tools/trstep/feet.h"
+#include "common/geometry/feet.h"
 
 #include <math.h>
 #include <string.h>
@@ -14,7 +14,7 @@
  * a foot. */
 static const double GEODESIC = 1.6, TIGHT = 0.15;
 
-int feet_moves(const struct pm_surfaces *s, ptrdiff_t m)
+int pm_feet_moves(const struct pm_surfaces *s, ptrdiff_t m)
 {
     ptrdiff_t k = 0;
     while (m >= s->offset[k + 1])
@@ -30,15 +30,15 @@ static double dot(const double *a, const double *b)
 
 /* The list of walls while it is made anew: the old one gives starts and multipliers. */
 struct collection {
-    struct penalty *p;
+    struct pm_penalty *p;
     const double *phi;
     double reach;
-    const struct penalty_wall *old, *end;
-    struct penalty_wall *wall;
+    const struct pm_penalty_wall *old, *end;
+    struct pm_penalty_wall *wall;
     ptrdiff_t n;
 };
 
-static double limit_of(const struct penalty *p, const struct pm_near *q)
+static double limit_of(const struct pm_penalty *p, const struct pm_near *q)
 {
     const int inside = p->samples.surface[q->i] > 0 ? PM_NEAR_INSIDE : PM_NEAR_OUTSIDE;
     return q->other == inside ? p->c->void_min : p->c->wall_min;
@@ -50,7 +50,7 @@ static enum pm_status find_foot(struct collection *c, const struct pm_near *q, d
                                 double r[3], struct pm_err *err)
 {
     enum pm_status status;
-    struct penalty *p = c->p;
+    struct pm_penalty *p = c->p;
     const int32_t b = p->samples.surface[q->j];
     const double *phi = c->phi + 3 * p->s->offset[b], *x = &p->x[3 * q->j];
     double distance;
@@ -68,7 +68,7 @@ done:
 }
 
 /* m: along the line to the foot; on another surface the side of the solid has the last word. */
-static void direct(const struct penalty *p, const struct pm_near *q, const double r[3],
+static void direct(const struct pm_penalty *p, const struct pm_near *q, const double r[3],
                    const double n[3], double m[3])
 {
     const double side = p->samples.surface[q->j] > 0 ? 1 : -1;
@@ -83,7 +83,7 @@ static void direct(const struct penalty *p, const struct pm_near *q, const doubl
 static enum pm_status keep_weights(struct collection *c, int32_t surface, int *moves,
                                    struct pm_err *err)
 {
-    struct penalty *p = c->p;
+    struct pm_penalty *p = c->p;
     const struct pm_basis *b = &p->work;
 
     if (p->nw + b->n > p->capacity) {
@@ -98,13 +98,13 @@ static enum pm_status keep_weights(struct collection *c, int32_t surface, int *m
     }
     for (ptrdiff_t k = 0; k < b->n; k++) {
         p->col[p->nw] = (int32_t)(p->s->offset[surface] + b->id[k]);
-        *moves |= feet_moves(p->s, p->col[p->nw]);
+        *moves |= pm_feet_moves(p->s, p->col[p->nw]);
         p->weight[p->nw++] = b->c[k];
     }
     return PM_OK;
 }
 
-static int before(const struct penalty_wall *a, const struct pm_near *b)
+static int before(const struct pm_penalty_wall *a, const struct pm_near *b)
 {
     return a->i != b->i ? a->i < b->i : a->other < b->other;
 }
@@ -112,11 +112,11 @@ static int before(const struct penalty_wall *a, const struct pm_near *b)
 static enum pm_status add_wall(struct collection *c, const struct pm_near *q, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct penalty *p = c->p;
+    struct pm_penalty *p = c->p;
     const int32_t b = p->samples.surface[q->j];
     const double *phi = c->phi + 3 * p->s->offset[b];
-    const struct penalty_wall *old = NULL;
-    struct penalty_wall *t = &c->wall[c->n];
+    const struct pm_penalty_wall *old = NULL;
+    struct pm_penalty_wall *t = &c->wall[c->n];
     double r[3], r_a[6];
     struct pm_curvature at;
     int moves = p->from[q->i] == 2;
@@ -125,7 +125,7 @@ static enum pm_status add_wall(struct collection *c, const struct pm_near *q, st
         c->old++;
     if (c->old < c->end && c->old->i == q->i && c->old->other == q->other)
         old = c->old;
-    *t = (struct penalty_wall){.i = q->i, .other = q->other, .limit = limit_of(p, q)};
+    *t = (struct pm_penalty_wall){.i = q->i, .other = q->other, .limit = limit_of(p, q)};
     if (q->distance > hypot(t->limit + c->reach, p->cover))
         return PM_OK;
     memcpy(t->S, &p->samples.S[3 * q->j], sizeof t->S);
@@ -154,7 +154,7 @@ done:
     return status;
 }
 
-static enum pm_status collect_walls(struct penalty *p, const double *phi, double reach,
+static enum pm_status collect_walls(struct pm_penalty *p, const double *phi, double reach,
                                     struct pm_err *err)
 {
     enum pm_status status;
@@ -171,7 +171,7 @@ static enum pm_status collect_walls(struct penalty *p, const double *phi, double
     p->nw = 0;
     for (ptrdiff_t k = 0; k < n; k++)
         PM_TRY(add_wall(&c, &near[k], err));
-    c.wall[c.n] = (struct penalty_wall){.i = -1, .first = p->nw};
+    c.wall[c.n] = (struct pm_penalty_wall){.i = -1, .first = p->nw};
     pm_free(p->wall);
     p->wall = c.wall;
     p->nwall = c.n;
@@ -182,8 +182,8 @@ done:
     return status;
 }
 
-enum pm_status penalty_collect(struct penalty *p, const double *phi, double reach, double calm,
-                               struct pm_err *err)
+enum pm_status pm_penalty_collect(struct pm_penalty *p, const double *phi, double reach,
+                                  double calm, struct pm_err *err)
 {
     const struct pm_samples *q = &p->samples;
     const double quiet = calm * calm * p->c->curvature_max * p->c->curvature_max;
@@ -198,11 +198,11 @@ enum pm_status penalty_collect(struct penalty *p, const double *phi, double reac
         if (p->from[i] != 2)
             continue;
         if (c.Q > quiet || p->bend[i] > 0)
-            p->flag[i] |= FEET_BEND;
+            p->flag[i] |= PM_FEET_BEND;
         for (int k = 0; k < 3; k++)
             if (pm_domain_depth(p->c, q->surface[i] > 0, k, &p->x[3 * i], n) + reach > 0 ||
                 p->bound[3 * i + k] > 0)
-                p->flag[i] |= FEET_BOUND;
+                p->flag[i] |= PM_FEET_BOUND;
     }
     return collect_walls(p, phi, reach, err);
 }

@@ -1,4 +1,4 @@
-#include "tools/trstep/penalty.h"
+#include "common/geometry/penalty.h"
 
 #include <math.h>
 #include <string.h>
@@ -6,7 +6,7 @@
 #include "common/base/memory.h"
 #include "common/geometry/curvature.h"
 #include "common/geometry/domain.h"
-#include "tools/trstep/feet.h"
+#include "common/geometry/feet.h"
 
 static const double FOLD_SHARE = 0.2;
 /* Rows of four, the last a dummy, are one vector each: the walls are most of the work. */
@@ -38,7 +38,7 @@ static int fundamental(const struct pm_symmetry *y, const double x[3])
     return 1;
 }
 
-static void weigh(struct penalty *p, const double *phi)
+static void weigh(struct pm_penalty *p, const double *phi)
 {
     const struct pm_samples *q = &p->samples;
     double area = 0;
@@ -52,12 +52,12 @@ static void weigh(struct penalty *p, const double *phi)
         p->share[i] = own * (double)p->c->symmetry.nops;
         p->from[i] = (unsigned char)fundamental(&p->c->symmetry, &p->x[3 * i]);
         for (ptrdiff_t w = q->ptr[i]; w < q->ptr[i + 1] && p->from[i]; w++)
-            if (feet_moves(p->s, q->col[w]))
+            if (pm_feet_moves(p->s, q->col[w]))
                 p->from[i] = 2;
     }
 }
 
-enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struct pm_err *err)
+enum pm_status pm_penalty_new(const struct pm_surfaces *s, struct pm_penalty *p, struct pm_err *err)
 {
     enum pm_status status;
     /* Edges of 0.65 d, so 0.38 d from any point of a surface to the nearest sample: over a crest of
@@ -65,7 +65,7 @@ enum pm_status penalty_new(const struct pm_surfaces *s, struct penalty *p, struc
     const double edge = 0.65 * s->pcase.wall_min;
     double *phi = NULL;
 
-    *p = (struct penalty){.s = s, .c = &s->pcase, .cover = edge / sqrt(3.0)};
+    *p = (struct pm_penalty){.s = s, .c = &s->pcase, .cover = edge / sqrt(3.0)};
     PM_TRY(pm_samples_with_nodes(s, edge, 2, &p->samples, err));
     const ptrdiff_t n = p->samples.n;
     PM_TRY(PM_NEW(p->from, n, err));
@@ -88,7 +88,7 @@ done:
     return status;
 }
 
-void penalty_release(struct penalty *p)
+void pm_penalty_release(struct pm_penalty *p)
 {
     pm_samples_release(&p->samples);
     for (int k = 0; k <= PM_MAX_CHAMBERS; k++)
@@ -106,12 +106,12 @@ void penalty_release(struct penalty *p)
     pm_free(p->weight);
     pm_free(p->places);
     pm_free(p->pull);
-    *p = (struct penalty){0};
+    *p = (struct pm_penalty){0};
 }
 
 /* Enters one constraint; returns the factor of its gradient, a_q <lambda + rho g>. */
-static double enter(struct penalty_value *v, int kind, double share, double multiplier, double rho,
-                    double g)
+static double enter(struct pm_penalty_value *v, int kind, double share, double multiplier,
+                    double rho, double g)
 {
     const double t = fmax(multiplier + rho * g, 0);
     v->lagrangian += rho > 0 ? share * (t * t - multiplier * multiplier) / (2 * rho) : 0;
@@ -119,7 +119,7 @@ static double enter(struct penalty_value *v, int kind, double share, double mult
     return share * t;
 }
 
-static void take_places(const struct penalty *p, const double *phi)
+static void take_places(const struct pm_penalty *p, const double *phi)
 {
     for (ptrdiff_t m = 0; m < p->s->offset[p->s->ns]; m++)
         memcpy(&p->places[WIDE * m], &phi[3 * m], 3 * sizeof *phi);
@@ -145,28 +145,28 @@ static inline void spread(ptrdiff_t n, const int32_t *col, const double *c,
             pull[WIDE * (ptrdiff_t)col[w] + j] += c[w] * force[j];
 }
 
-static void spread_sample(const struct penalty *p, ptrdiff_t i, const double force[WIDE])
+static void spread_sample(const struct pm_penalty *p, ptrdiff_t i, const double force[WIDE])
 {
     const struct pm_samples *q = &p->samples;
     const ptrdiff_t k = q->ptr[i];
     spread(q->ptr[i + 1] - k, q->col + k, q->c + k, force, p->pull);
 }
 
-static void place_of(const struct penalty *p, ptrdiff_t i, double x[WIDE])
+static void place_of(const struct pm_penalty *p, ptrdiff_t i, double x[WIDE])
 {
     const struct pm_samples *q = &p->samples;
     const ptrdiff_t k = q->ptr[i];
     gather(q->ptr[i + 1] - k, q->col + k, q->c + k, p->places, x);
 }
 
-static void add_curvature(const struct penalty *p, const double *phi, double rho, double *gradient,
-                          struct penalty_value *v)
+static void add_curvature(const struct pm_penalty *p, const double *phi, double rho,
+                          double *gradient, struct pm_penalty_value *v)
 {
     const struct pm_samples *q = &p->samples;
     const double limit = square(p->c->curvature_max);
 
     for (ptrdiff_t i = 0; i < q->n; i++) {
-        if (!(p->flag[i] & FEET_BEND))
+        if (!(p->flag[i] & PM_FEET_BEND))
             continue;
         double r_a[6], r_ab[9], Q_a[6], Q_ab[9];
         struct pm_curvature at;
@@ -188,7 +188,7 @@ static void add_curvature(const struct penalty *p, const double *phi, double rho
 }
 
 /* r_q - r* along m [mm]. */
-static double gap(const struct penalty *p, const struct penalty_wall *t, const double x[WIDE])
+static double gap(const struct pm_penalty *p, const struct pm_penalty_wall *t, const double x[WIDE])
 {
     const ptrdiff_t k = t->first;
     double r[WIDE];
@@ -196,12 +196,12 @@ static double gap(const struct penalty *p, const struct penalty_wall *t, const d
     return (x[0] - r[0]) * t->m[0] + (x[1] - r[1]) * t->m[1] + (x[2] - r[2]) * t->m[2];
 }
 
-static void add_walls(const struct penalty *p, double rho, int pulls, struct penalty_value *v)
+static void add_walls(const struct pm_penalty *p, double rho, int pulls, struct pm_penalty_value *v)
 {
     double x[WIDE] = {0};
 
     for (ptrdiff_t k = 0; k < p->nwall; k++) {
-        const struct penalty_wall *t = &p->wall[k];
+        const struct pm_penalty_wall *t = &p->wall[k];
         if (k == 0 || t[-1].i != t->i)
             place_of(p, t->i, x);
         const double g = 1 - gap(p, t, x) / t->limit;
@@ -216,13 +216,14 @@ static void add_walls(const struct penalty *p, double rho, int pulls, struct pen
     }
 }
 
-static void add_bounds(const struct penalty *p, double rho, int pulls, struct penalty_value *v)
+static void add_bounds(const struct pm_penalty *p, double rho, int pulls,
+                       struct pm_penalty_value *v)
 {
     const double d = p->c->wall_min;
 
     for (ptrdiff_t i = 0; i < p->samples.n; i++) {
         double x[WIDE], force[WIDE] = {0}, n[3];
-        if (!(p->flag[i] & FEET_BOUND))
+        if (!(p->flag[i] & PM_FEET_BOUND))
             continue;
         place_of(p, i, x);
         for (int k = 0; k < 3; k++) {
@@ -239,12 +240,12 @@ static void add_bounds(const struct penalty *p, double rho, int pulls, struct pe
     }
 }
 
-void penalty_at(const struct penalty *p, const double *phi, const double rho[2], double *gradient,
-                struct penalty_value *v)
+void pm_penalty_at(const struct pm_penalty *p, const double *phi, const double rho[2],
+                   double *gradient, struct pm_penalty_value *v)
 {
     const ptrdiff_t N = p->s->offset[p->s->ns];
 
-    *v = (struct penalty_value){0};
+    *v = (struct pm_penalty_value){0};
     add_curvature(p, phi, rho[0], gradient, v);
     take_places(p, phi);
     memset(p->pull, 0, (size_t)(WIDE * N) * sizeof *p->pull);
@@ -254,7 +255,71 @@ void penalty_at(const struct penalty *p, const double *phi, const double rho[2],
         gradient[k] += p->pull[k / 3 * WIDE + k % 3];
 }
 
-void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
+static double bend_excess(const struct pm_penalty *p, const double *phi, ptrdiff_t i)
+{
+    double r_a[6], r_ab[9];
+    struct pm_curvature c;
+
+    pm_samples_at(&p->samples, i, phi, NULL, r_a, r_ab);
+    pm_curvature_at(r_a, r_ab, &c);
+    return sqrt(c.Q) / p->c->curvature_max - 1;
+}
+
+static double depth_over(const struct pm_penalty *p, ptrdiff_t i, const double x[WIDE])
+{
+    double most = 0, n[3];
+
+    for (int k = 0; k < 3; k++)
+        most = fmax(most, pm_domain_depth(p->c, p->samples.surface[i] > 0, k, x, n));
+    return most / p->c->wall_min;
+}
+
+void pm_penalty_worst(const struct pm_penalty *p, const double *phi, double *curvature,
+                      double *wall)
+{
+    const ptrdiff_t ns = p->s->ns;
+    double x[WIDE];
+
+    memset(curvature, 0, (size_t)ns * sizeof *curvature);
+    memset(wall, 0, (size_t)(ns * ns) * sizeof *wall);
+    take_places(p, phi);
+    for (ptrdiff_t i = 0; i < p->samples.n; i++) {
+        const int32_t a = p->samples.surface[i];
+        if (p->flag[i] & PM_FEET_BEND)
+            curvature[a] = fmax(curvature[a], bend_excess(p, phi, i));
+        if (!(p->flag[i] & PM_FEET_BOUND))
+            continue;
+        place_of(p, i, x);
+        wall[a * (ns + 1)] = fmax(wall[a * (ns + 1)], depth_over(p, i, x));
+    }
+    for (ptrdiff_t k = 0; k < p->nwall; k++) {
+        const struct pm_penalty_wall *t = &p->wall[k];
+        const int32_t a = p->samples.surface[t->i], b = t->other < 0 ? a : t->other;
+        double *w = &wall[a < b ? a * ns + b : b * ns + a];
+        place_of(p, t->i, x);
+        *w = fmax(*w, 1 - gap(p, t, x) / t->limit);
+    }
+}
+
+enum pm_status pm_penalty_survey(const struct pm_surfaces *s, double *curvature, double *wall,
+                                 struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_penalty p = {.s = NULL};
+    double *phi = NULL;
+
+    PM_TRY(PM_NEW(phi, 3 * s->offset[s->ns], err));
+    pm_surfaces_gather(s, phi);
+    PM_TRY(pm_penalty_new(s, &p, err));
+    PM_TRY(pm_penalty_collect(&p, phi, 0, 1, err));
+    pm_penalty_worst(&p, phi, curvature, wall);
+done:
+    pm_penalty_release(&p);
+    pm_free(phi);
+    return status;
+}
+
+void pm_penalty_raise(struct pm_penalty *p, const double *phi, const double rho[2])
 {
     const struct pm_samples *q = &p->samples;
     double x[WIDE], n[3], r_a[6], r_ab[9];
@@ -262,12 +327,12 @@ void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
 
     take_places(p, phi);
     for (ptrdiff_t i = 0; i < q->n; i++) {
-        if (p->flag[i] & FEET_BEND) {
+        if (p->flag[i] & PM_FEET_BEND) {
             pm_samples_at(q, i, phi, NULL, r_a, r_ab);
             pm_curvature_at(r_a, r_ab, &c);
             p->bend[i] = fmax(p->bend[i] + rho[0] * (c.Q / square(p->c->curvature_max) - 1), 0);
         }
-        if (!(p->flag[i] & FEET_BOUND))
+        if (!(p->flag[i] & PM_FEET_BOUND))
             continue;
         place_of(p, i, x);
         for (int k = 0; k < 3; k++) {
@@ -276,13 +341,13 @@ void penalty_raise(struct penalty *p, const double *phi, const double rho[2])
         }
     }
     for (ptrdiff_t k = 0; k < p->nwall; k++) {
-        struct penalty_wall *t = &p->wall[k];
+        struct pm_penalty_wall *t = &p->wall[k];
         place_of(p, t->i, x);
         t->multiplier = fmax(t->multiplier + rho[1] * (1 - gap(p, t, x) / t->limit), 0);
     }
 }
 
-void penalty_relax(struct penalty *p)
+void pm_penalty_relax(struct pm_penalty *p)
 {
     memset(p->bend, 0, (size_t)p->samples.n * sizeof *p->bend);
     memset(p->bound, 0, (size_t)(3 * p->samples.n) * sizeof *p->bound);
@@ -290,7 +355,7 @@ void penalty_relax(struct penalty *p)
         p->wall[k].multiplier = 0;
 }
 
-double penalty_safe_part(const struct penalty *p, const double *phi, const double *step)
+double pm_penalty_safe_part(const struct pm_penalty *p, const double *phi, const double *step)
 {
     double part = 1;
 
@@ -311,4 +376,34 @@ double penalty_safe_part(const struct penalty *p, const double *phi, const doubl
         }
     }
     return part;
+}
+
+void pm_penalty_mass(const struct pm_penalty *p, double *mass)
+{
+    const struct pm_surfaces *s = p->s;
+    const struct pm_samples *samples = &p->samples;
+    const ptrdiff_t N = s->offset[s->ns], nops = s->pcase.symmetry.nops;
+    double area = 0;
+
+    memset(mass, 0, (size_t)N * sizeof *mass);
+    for (ptrdiff_t q = 0; q < samples->n; q++) {
+        area += samples->area[q];
+        for (ptrdiff_t w = samples->ptr[q]; w < samples->ptr[q + 1]; w++)
+            mass[samples->col[w]] += samples->area[q] * samples->c[w];
+    }
+    /* Orbits: images are visited from their first member, every member gets the mean. A floor keeps
+     * points that hardly move a surface from taking all of a step. */
+    for (ptrdiff_t i = 0; i < N; i++) {
+        ptrdiff_t first = i;
+        double sum = 0;
+        for (ptrdiff_t g = 0; g < nops; g++)
+            first = s->perm[g * N + i] < first ? s->perm[g * N + i] : first;
+        if (first < i)
+            continue;
+        for (ptrdiff_t g = 0; g < nops; g++)
+            sum += mass[s->perm[g * N + i]];
+        const double mean = fmax(sum / (double)nops / area, 0.01 / (double)N);
+        for (ptrdiff_t g = 0; g < nops; g++)
+            mass[s->perm[g * N + i]] = mean;
+    }
 }
