@@ -5,13 +5,15 @@
 #   make -j2 workspace RUN=run/NAME [STEP=0.006]                        of the last accepted design of an optimisation
 #
 # Everything goes to RUN/workspace/; table.md holds the values, also by every other sample. Symmetry leaves few of the points; they are solved in
-# parts of at most 64 by continuation, beside each other under make -j. A stopped target goes on where it was.
+# parts of at most 64 by continuation, beside each other under make -j. RULES are the Gauss sets to compare with, by form and
+# points per axis: RULES= for none, where states are dear. A stopped target goes on where it was.
 
 STEP ?= 0.006
 MEASURE ?=
+RULES ?= boundary-2 boundary-3 volume-2 volume-3
 .PHONY: workspace
 workspace: $(addprefix $B/bin/,surfgen tetmesh fesolve wsint pmplot trstep) ## dense workspace of a design: CASE=.. or RUN=.. [STEP=0.006] [SIZE=MM]
-	+@BIN='$(BIN)' MAKE='$(MAKE)' JOBS='$(JOBS)' pipelines/workspace.sh '$(RUN)' '$(CASE)' '$(STEP)' '$(SIZE)' '$(MEASURE)'
+	+@BIN='$(BIN)' MAKE='$(MAKE)' JOBS='$(JOBS)' pipelines/workspace.sh '$(RUN)' '$(CASE)' '$(STEP)' '$(SIZE)' '$(MEASURE)' '$(RULES)'
 
 # One list of pressures, one path.
 ifneq ($(WORKSPACE),)

@@ -1,9 +1,9 @@
 #!/bin/bash
-# workspace.sh RUN CASE STEP SIZE MEASURE: the dense workspace of a design and its Gauss values (workspace.mk).
+# workspace.sh RUN CASE STEP SIZE MEASURE RULES: the dense workspace of a design and its Gauss values (workspace.mk).
 set -eu
 shopt -s inherit_errexit
 export LC_ALL=C
-run=$1 case=$2 step=$3 size=$4 measure=$5
+run=$1 case=$2 step=$3 size=$4 measure=$5 wanted=$6
 
 fail() {
     echo "workspace: $1" >&2
@@ -51,13 +51,11 @@ for ((k = 0; k * each < points; k++)); do
     paths+=("$out/$name.h5")
 done
 rules=() counts=() # points that have a weight
-for form in boundary volume; do
-    for m in 2 3; do
-        "$BIN/wsint" "${other[@]}" --points --form $form --per-axis $m "$case" >"$out/points" 2>/dev/null || continue
-        awk -F '\t' 'NR > 1 { for (i = 6; i <= NF; i++) printf "%s%s", $i, i < NF ? " " : "\n" }' "$out/points" | list "$form-$m"
-        rules+=("$form-$m")
-        counts+=("$(awk -F '\t' 'NR > 1 && $3 != 0 { n++ } END { print n }' "$out/points")")
-    done
+for rule in $wanted; do
+    "$BIN/wsint" "${other[@]}" --points --form "${rule%-*}" --per-axis "${rule#*-}" "$case" >"$out/points" 2>/dev/null || continue
+    awk -F '\t' 'NR > 1 { for (i = 6; i <= NF; i++) printf "%s%s", $i, i < NF ? " " : "\n" }' "$out/points" | list "$rule"
+    rules+=("$rule")
+    counts+=("$(awk -F '\t' 'NR > 1 && $3 != 0 { n++ } END { print n }' "$out/points")")
 done
 gauss=("${rules[@]/#/$out/}")
 # shellcheck disable=SC2086 # JOBS is empty or one option
