@@ -173,6 +173,26 @@ static void test_bad_materials(void)
         refused(bad[i].text, bad[i].says);
 }
 
+static void test_constraints(void)
+{
+    static const struct {
+        const char *text, *says;
+    } bad[] = {
+        {HEAD CHAMBER "[constraints]\ndomain = ball\n",
+         "key 'domain' is 'ball', expected none, cylinder or box"},
+        {HEAD CHAMBER "[constraints]\ndomain = box\ndomain_x = 30\n",
+         "key 'domain_y' in section '[constraints]' is missing"},
+        {HEAD CHAMBER "[constraints]\ndomain_radius = 30\n",
+         "key 'domain_radius' in section '[constraints]' is not one of domain = none"},
+        {HEAD CHAMBER "[symmetry]\ngroup = mirror-x\n[constraints]\ncontact = maybe\n",
+         "expected ignore or reject"},
+        {HEAD CHAMBER "[symmetry]\ngroup = mirror-x\n[constraints]\ngap_min = 1\n",
+         "gap_min in section '[constraints]' is 1, expected 0 where contact is not reject"},
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++)
+        refused(bad[i].text, bad[i].says);
+}
+
 static void test_refusals(void)
 {
     static const struct {
@@ -191,12 +211,6 @@ static void test_refusals(void)
          "line 19: key 'size' is '4', expected each key once"},
         {HEAD CHAMBER "[body]\nrows = 12.5\n", "key 'rows' is '12.5', expected an integer > 0"},
         {HEAD CHAMBER "[symmetry]\ngroup = c4\n", "key 'group' has 'c4'"},
-        {HEAD CHAMBER "[constraints]\ndomain = ball\n",
-         "key 'domain' is 'ball', expected none, cylinder or box"},
-        {HEAD CHAMBER "[constraints]\ndomain = box\ndomain_x = 30\n",
-         "key 'domain_y' in section '[constraints]' is missing"},
-        {HEAD CHAMBER "[constraints]\ndomain_radius = 30\n",
-         "key 'domain_radius' in section '[constraints]' is not one of domain = none"},
         {HEAD CHAMBER, "measure 2T with 1 chambers, expected 2"},
         {HEAD CHAMBER "cells = 3\n", "key 'cells' in section '[chamber1]' is not one of shape"},
         {HEAD CELLS, "key 'thickness' in section '[chamber1]' is missing"},
@@ -285,6 +299,7 @@ int main(void)
     test_groups();
     test_materials();
     test_bad_materials();
+    test_constraints();
     test_refusals();
     struct pm_case c;
     struct pm_err err = {.status = PM_OK};
