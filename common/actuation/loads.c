@@ -211,7 +211,7 @@ static ptrdiff_t add_guards(const struct pm_case *c, enum pm_form form, struct p
 
     if (form != c->form)
         return 0;
-    for (ptrdiff_t r = 0; r < c->nchambers && c->gap_min > 0; r++) {
+    for (ptrdiff_t r = 0; r < c->nchambers && c->nchambers > 1 && c->gap_min > 0; r++) {
         if (seen[r])
             continue;
         set[n] = guard(c, form, r);

@@ -69,13 +69,12 @@ static void meet(const struct pm_skin *s, int32_t t, struct ray *r)
     const double q = dot(c, N) / (size * size);
     if (!(p >= 0 && q >= 0 && p + q <= 1))
         return;
-    *r = (struct ray){.length = length,
-                      .cosine = down / size,
-                      .at = {1 - p - q, p, q},
-                      .hit = t,
-                      .mirror = {r->mirror[0], r->mirror[1], r->mirror[2]},
-                      .from = {r->from[0], r->from[1], r->from[2]},
-                      .along = {r->along[0], r->along[1], r->along[2]}};
+    r->length = length;
+    r->cosine = down / size;
+    r->at[0] = 1 - p - q;
+    r->at[1] = p;
+    r->at[2] = q;
+    r->hit = t;
 }
 
 static void cast(const struct near *c, struct ray *r)
@@ -229,10 +228,9 @@ done:
     return status;
 }
 
-/* Numbers the regions: the largest first, all beyond the parts in the last one. */
-static void number(struct near *c, struct hits *h)
+/* Numbers the regions: the largest first, all beyond the parts in the last one; G of them. */
+static void number(const struct near *c, struct hits *h, double G[PM_CLOSENESS_PARTS])
 {
-    c->gradient = NULL;
     for (ptrdiff_t k = 0; k < h->n; k++)
         h->region[region_of(c->s, h, k)] += enter(c, h->from[k], &h->ray[k]);
     for (ptrdiff_t a = 0; a < c->s->m->nn; a++)
@@ -242,33 +240,36 @@ static void number(struct near *c, struct hits *h)
         for (ptrdiff_t a = 1; a < c->s->m->nn; a++)
             most = h->region[a] > h->region[most] ? a : most;
         h->part[most] = h->region[most] > 0 ? (unsigned char)p : h->part[most];
+        G[p] = h->region[most];
         h->region[most] = 0;
     }
+    G[PM_CLOSENESS_PARTS - 1] = 0;
+    for (ptrdiff_t a = 0; a < c->s->m->nn; a++)
+        G[PM_CLOSENESS_PARTS - 1] += h->region[a];
 }
 
-enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double G[PM_CLOSENESS_PARTS],
-                            double *dG_dx, struct pm_err *err)
+enum pm_status pm_closeness_of(const struct pm_skin *s, double G[PM_CLOSENESS_PARTS], double *dG_dx,
+                               struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    struct pm_skin s = {.nt = 0};
-    struct near c = {.s = &s, .d = m->pcase.gap_min};
+    struct near c = {.s = s, .d = s->m->pcase.gap_min};
     struct hits h = {.n = 0};
-    const ptrdiff_t size = 3 * m->nn;
+    const ptrdiff_t size = 3 * s->m->nn;
+    const double copies = (double)(1U << s->nplanes);
 
     memset(G, 0, PM_CLOSENESS_PARTS * sizeof *G);
     if (dG_dx != NULL)
         memset(dG_dx, 0, PM_CLOSENESS_PARTS * (size_t)size * sizeof *dG_dx);
     if (!(c.d > 0))
         return PM_OK;
-    PM_TRY(pm_skin_new(m, u, &s, err));
-    PM_TRY(PM_NEW(c.id, s.nt, err));
+    PM_TRY(PM_NEW(c.id, s->nt, err));
     PM_TRY(look(&c, &h, err));
-    number(&c, &h);
-    const double copies = (double)(1U << s.nplanes);
-    for (ptrdiff_t k = 0; k < h.n; k++) {
-        const int part = h.part[region_of(&s, &h, k)];
-        c.gradient = dG_dx != NULL ? dG_dx + size * part : NULL;
-        G[part] += copies * enter(&c, h.from[k], &h.ray[k]);
+    number(&c, &h, G);
+    for (int p = 0; p < PM_CLOSENESS_PARTS; p++)
+        G[p] *= copies;
+    for (ptrdiff_t k = 0; k < h.n && dG_dx != NULL; k++) {
+        c.gradient = dG_dx + size * h.part[region_of(s, &h, k)];
+        enter(&c, h.from[k], &h.ray[k]);
     }
     for (ptrdiff_t i = 0; i < PM_CLOSENESS_PARTS * size && dG_dx != NULL; i++)
         dG_dx[i] *= copies;
@@ -279,6 +280,19 @@ done:
     pm_free(h.root);
     pm_free(h.region);
     pm_free(h.part);
+    return status;
+}
+
+enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double G[PM_CLOSENESS_PARTS],
+                            double *dG_dx, struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_skin s = {.m = m};
+
+    if (m->pcase.gap_min > 0)
+        PM_TRY(pm_skin_new(m, u, &s, err));
+    PM_TRY(pm_closeness_of(&s, G, dG_dx, err));
+done:
     pm_skin_release(&s);
     return status;
 }

@@ -19,6 +19,10 @@
 enum { PM_CLOSENESS_PARTS = 8 };
 enum pm_status pm_closeness(const struct pm_mesh *m, const double *u, double G[PM_CLOSENESS_PARTS],
                             double *dG_dx, struct pm_err *err);
+/* The same of a skin that is already there (skin.h). */
+struct pm_skin;
+enum pm_status pm_closeness_of(const struct pm_skin *s, double G[PM_CLOSENESS_PARTS], double *dG_dx,
+                               struct pm_err *err);
 double pm_closeness_sum(const double G[PM_CLOSENESS_PARTS]);
 
 /* Factor of the objective, exp(-0.01 sum_g mult_g G_g) [model 7.1]; and d ln(factor)/dG_g for one

@@ -143,7 +143,7 @@ enum pm_status pm_contact_find(const struct pm_mesh *m, const double *u, struct 
     find_mirrored(&s, c);
     if (c->intersections == 0)
         find_gap(&s, c);
-    PM_TRY(pm_closeness(m, u, G, NULL, err));
+    PM_TRY(pm_closeness_of(&s, G, NULL, err));
     c->closeness = pm_closeness_sum(G);
 done:
     pm_skin_release(&s);

@@ -22,8 +22,8 @@ struct probe {
     struct pm_load load;
     double sigma_weight; /* of the point's contribution */
     double closeness_slope;
-    double *x0, *dx,
-        *u; /* node positions at the design, their rate along the direction, work (nn x 3) */
+    double *x0, *dx; /* node positions at the design and their rate along the direction (nn x 3) */
+    double *u;       /* displacements, work (nn x 3) */
 };
 
 /* The objective at x0 + s dx, all other points as they are: solved from the state as guess. */

@@ -27,42 +27,18 @@ double near_at(const struct pm_step *s, const double *d, double factor, double *
     return sum;
 }
 
-/* One more state, without values. */
-static enum pm_status grow(struct pm_step *s, struct pm_err *err)
-{
-    enum pm_status status;
-    const ptrdiff_t n = unknowns(s), most = s->nclose + 1;
-    double *grown[3] = {NULL};
-    double **const all[3] = {&s->close_weight, &s->close_value, &s->close_gradient};
-    const ptrdiff_t size[3] = {1, 1, n};
-    for (int k = 0; k < 3; k++) {
-        PM_TRY(PM_NEW(grown[k], most * size[k], err));
-        if (s->nclose > 0)
-            memcpy(grown[k], *all[k], (size_t)(s->nclose * size[k]) * sizeof(double));
-    }
-    for (int k = 0; k < 3; k++) {
-        double *old = *all[k];
-        *all[k] = grown[k];
-        grown[k] = old;
-    }
-    s->nclose = most;
-done:
-    for (int k = 0; k < 3; k++)
-        pm_free(grown[k]);
-    return status;
-}
-
 enum pm_status near_add(struct pm_step *s, double weight, double value, const double *gradient,
                         struct pm_err *err)
 {
-    enum pm_status status;
-    const ptrdiff_t n = unknowns(s);
-    PM_TRY(grow(s, err));
-    s->close_weight[s->nclose - 1] = weight;
-    s->close_value[s->nclose - 1] = value;
-    memcpy(s->close_gradient + n * (s->nclose - 1), gradient, (size_t)n * sizeof *gradient);
-done:
-    return status;
+    const ptrdiff_t n = unknowns(s), k = s->nclose;
+    PM_GROW(s->close_weight, k + 1, err);
+    PM_GROW(s->close_value, k + 1, err);
+    PM_GROW(s->close_gradient, n * (k + 1), err);
+    s->close_weight[k] = weight;
+    s->close_value[k] = value;
+    memcpy(s->close_gradient + n * k, gradient, (size_t)n * sizeof *gradient);
+    s->nclose = k + 1;
+    return PM_OK;
 }
 
 enum pm_status near_copy(const struct pm_step *from, struct pm_step *to, struct pm_err *err)

@@ -1,7 +1,6 @@
 /* What the sub-problem knows of contact: the closeness G_g of every region where a state is close
- * to itself, by the
- * derivative of its root (Gauss-Newton: exact where a gap changes linearly), so that no gain is
- * promised beyond G = 0,
+ * to itself, by the derivative of its root (Gauss-Newton: exact where a gap changes linearly), so
+ * that no gain is promised beyond G = 0,
  *
  *   sum_g a_g (G_g(d) - G_g),  G_g(d) = <sqrt(G_g) + dG_g.d / (2 sqrt(G_g))>^2  [model 8]
  */
