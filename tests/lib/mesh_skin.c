@@ -1,0 +1,258 @@
+/* What refit.sh takes from a mesh without symmetry planes, whose base lies in z = 0:
+ *   mesh_skin obj MESH.h5 PREFIX          the boundary as PREFIX/body.obj, PREFIX/chamber1.obj ..,
+ *                                         curved triangles as four; prints height, radius of the
+ *                                         cylinder of equal volume and height, area of the side
+ *                                         wall [mm, mm2], then a point inside each chamber
+ *   mesh_skin straight MESH.h5 FILE.msh   its vertices alone: tetrahedra of 4 nodes, gmsh 2.2
+ *   mesh_skin sizes MESH.h5               tetrahedra, mean edge [mm], volume of the body [mm3] */
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "common/base/memory.h"
+#include "common/files/mesh.h"
+#include "common/mechanics/tet10.h"
+
+static const double pi = 3.14159265358979323846;
+
+static double dot(const double *a, const double *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static void cross(const double *a, const double *b, double *c)
+{
+    for (int i = 0; i < 3; i++)
+        c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
+}
+
+/* Area and flux of x / 3 of a boundary face; exact for straight ones, the flux for all. */
+static void face_sums(const struct pm_mesh *m, ptrdiff_t f, double *area, double *flux)
+{
+    double X[6][3];
+    for (int a = 0; a < 6; a++)
+        for (int i = 0; i < 3; i++) {
+            const int32_t *v = m->tri + m->npf * f;
+            const double *p = m->x + 3 * v[a % 3], *q = m->x + 3 * v[(a + 1) % 3];
+            X[a][i] = a < 3 ? p[i] : m->npf == 6 ? m->x[3 * v[a] + i] : (p[i] + q[i]) / 2;
+        }
+    *area = *flux = 0;
+    for (int q = 0; q < PM_TRI_POINTS; q++) {
+        double N[6], dN[12], x[3] = {0}, u[3] = {0}, v[3] = {0}, n[3];
+        pm_tri6_shape(pm_tri_xi[q], N, dN);
+        for (int a = 0; a < 6; a++)
+            for (int i = 0; i < 3; i++) {
+                x[i] += N[a] * X[a][i];
+                u[i] += dN[2 * a] * X[a][i];
+                v[i] += dN[2 * a + 1] * X[a][i];
+            }
+        cross(u, v, n);
+        *area += pm_tri_weight[q] * sqrt(dot(n, n));
+        *flux += pm_tri_weight[q] * dot(x, n) / 3;
+    }
+}
+
+/* Triangles `part` of face f: vertices (3). */
+static void part_of(const struct pm_mesh *m, ptrdiff_t f, int part, int32_t v[3])
+{
+    static const int corner[4][3] = {{0, 3, 5}, {3, 1, 4}, {5, 4, 2}, {3, 4, 5}};
+    for (int k = 0; k < 3; k++)
+        v[k] = m->tri[m->npf * f + (m->npf == 6 ? corner[part][k] : k)];
+}
+
+/* Where the line from o along d crosses a triangle: the distance in units of d, INFINITY where it
+ * does not or where that is behind o. */
+static double crossing(const double *o, const double *d, const double *a, const double *b,
+                       const double *c)
+{
+    double u[3], v[3], w[3], n[3], k[3];
+    for (int i = 0; i < 3; i++) {
+        u[i] = b[i] - a[i];
+        v[i] = c[i] - a[i];
+        w[i] = o[i] - a[i];
+    }
+    cross(u, v, n);
+    const double det = -dot(d, n);
+    if (fabs(det) < DBL_MIN)
+        return INFINITY;
+    cross(w, d, k);
+    const double s = dot(v, k) / det, r = -dot(u, k) / det, t = dot(w, n) / det;
+    return s < 0 || r < 0 || s + r > 1 || t < 1e-9 ? (double)INFINITY : t;
+}
+
+/* The middle of the first chord of the chamber from its first face inwards: it lies in the air. */
+static void point_inside(const struct pm_mesh *m, int32_t chamber, double at[3])
+{
+    double nearest = INFINITY, o[3], u[3], v[3], d[3];
+    int32_t c[3];
+    ptrdiff_t first = 0;
+    while (m->tri_tag[first] != chamber)
+        first++;
+    part_of(m, first, 3, c);
+    for (int i = 0; i < 3; i++) {
+        const double a = m->x[3 * c[0] + i], b = m->x[3 * c[1] + i], e = m->x[3 * c[2] + i];
+        o[i] = (a + b + e) / 3;
+        u[i] = b - a;
+        v[i] = e - a;
+    }
+    cross(u, v, d); /* out of the solid */
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        for (int part = 0; part < (m->npf == 6 ? 4 : 1) && m->tri_tag[f] == chamber; part++) {
+            if (f == first && part == 3)
+                continue;
+            part_of(m, f, part, c);
+            nearest =
+                fmin(nearest, crossing(o, d, m->x + 3 * c[0], m->x + 3 * c[1], m->x + 3 * c[2]));
+        }
+    for (int i = 0; i < 3; i++)
+        at[i] = o[i] + nearest / 2 * d[i];
+}
+
+/* Chamber 0 is the body: base, tip and side wall. Chambers outward, against the mesh. */
+static int write_obj(const struct pm_mesh *m, int32_t chamber, const char *path, int32_t *id)
+{
+    FILE *file = fopen(path, "w");
+    int32_t n = 0, v[3];
+    if (file == NULL)
+        return 0;
+    memset(id, 0, (size_t)m->nn * sizeof *id);
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        for (int part = 0; part < (m->npf == 6 ? 4 : 1); part++) {
+            if (chamber == 0 ? m->tri_tag[f] > 0 : m->tri_tag[f] != chamber)
+                continue;
+            part_of(m, f, part, v);
+            for (int k = 0; k < 3; k++) {
+                const double *x = m->x + 3 * v[k];
+                if (id[v[k]] == 0) {
+                    id[v[k]] = ++n;
+                    fprintf(file, "v %.17g %.17g %.17g\n", x[0], x[1], x[2]);
+                }
+            }
+            fprintf(file, "f %d %d %d\n", id[v[0]], id[v[chamber > 0 ? 2 : 1]],
+                    id[v[chamber > 0 ? 1 : 2]]);
+        }
+    return fclose(file) == 0;
+}
+
+static enum pm_status obj(const struct pm_mesh *m, const char *prefix, struct pm_err *err)
+{
+    enum pm_status status;
+    int32_t *id = NULL;
+    double side = 0, volume = 0, height = 0;
+    PM_TRY(PM_NEW(id, m->nn, err));
+    for (ptrdiff_t a = 0; a < m->nn; a++)
+        height = fmax(height, m->x[3 * a + 2]);
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        const double z = m->x[3 * m->tri[m->npf * f] + 2];
+        double area, flux;
+        if (m->tri_tag[f] <= PM_FACE_SYM_X)
+            PM_TRY(pm_fail(err, PM_INPUT, "found a symmetry plane, expected a whole body"));
+        if (z < -1e-9 * height || (m->tri_tag[f] == PM_FACE_BASE && z > 1e-9 * height))
+            PM_TRY(pm_fail(err, PM_INPUT, "found z = %g mm, expected the base in z = 0", z));
+        if (m->tri_tag[f] == PM_FACE_TIP && z < (1 - 1e-9) * height)
+            PM_TRY(pm_fail(err, PM_INPUT, "found the tip at z = %g mm, expected %g", z, height));
+        face_sums(m, f, &area, &flux);
+        side += m->tri_tag[f] == PM_FACE_EXTERIOR ? area : 0;
+        volume += m->tri_tag[f] <= 0 ? flux : 0;
+    }
+    printf("%.17g %.9g %.9g\n", height, sqrt(volume / pi / height), side);
+    for (int32_t k = 0; k <= m->nc; k++) {
+        char path[4096], name[32] = "body";
+        double at[3];
+        if (k > 0) {
+            snprintf(name, sizeof name, "chamber%d", k);
+            point_inside(m, k, at);
+            printf("%.9g %.9g %.9g\n", at[0], at[1], at[2]);
+        }
+        snprintf(path, sizeof path, "%s/%s.obj", prefix, name);
+        if (!write_obj(m, k, path, id))
+            PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s'", path));
+    }
+done:
+    pm_free(id);
+    return status;
+}
+
+static enum pm_status straight(const struct pm_mesh *m, const char *path, struct pm_err *err)
+{
+    enum pm_status status;
+    int32_t *id = NULL, n = 0;
+    FILE *file = fopen(path, "w");
+    if (file == NULL)
+        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s'", path));
+    PM_TRY(PM_NEW(id, m->nn, err));
+    for (ptrdiff_t k = 0; k < 4 * m->ne; k++) {
+        int32_t *i = &id[m->tet[m->npe * (k / 4) + k % 4]];
+        *i = *i == 0 ? ++n : *i;
+    }
+    fprintf(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%td\n3 1 \"body\"\n",
+            m->nc + 4);
+    fprintf(file, "2 2 \"base\"\n2 3 \"tip\"\n2 4 \"exterior\"\n");
+    for (ptrdiff_t k = 1; k <= m->nc; k++)
+        fprintf(file, "2 %td \"chamber%td\"\n", 4 + k, k);
+    fprintf(file, "$EndPhysicalNames\n$Nodes\n%d\n", n);
+    for (ptrdiff_t a = 0; a < m->nn; a++)
+        if (id[a] > 0)
+            fprintf(file, "%d %.17g %.17g %.17g\n", id[a], m->x[3 * a], m->x[3 * a + 1],
+                    m->x[3 * a + 2]);
+    fprintf(file, "$EndNodes\n$Elements\n%td\n", m->nf + m->ne);
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        const int32_t *v = m->tri + m->npf * f, tag = m->tri_tag[f];
+        const int32_t group = tag == PM_FACE_BASE ? 2 : tag == PM_FACE_TIP ? 3 : 4 + tag;
+        fprintf(file, "%td 2 2 %d %d %d %d %d\n", f + 1, group, group, id[v[0]], id[v[1]],
+                id[v[2]]);
+    }
+    for (ptrdiff_t e = 0; e < m->ne; e++) {
+        const int32_t *v = m->tet + m->npe * e;
+        fprintf(file, "%td 4 2 1 1 %d %d %d %d\n", m->nf + e + 1, id[v[0]], id[v[1]], id[v[2]],
+                id[v[3]]);
+    }
+    fprintf(file, "$EndElements\n");
+done:
+    pm_free(id);
+    if (file != NULL && fclose(file) != 0 && status == PM_OK)
+        status = pm_fail(err, PM_SYSTEM, "cannot write '%s'", path);
+    return status;
+}
+
+static void sizes(const struct pm_mesh *m)
+{
+    double edges = 0, volume = 0;
+    for (ptrdiff_t e = 0; e < m->ne; e++)
+        for (int k = 0; k < 6; k++) {
+            const int32_t *v = m->tet + m->npe * e;
+            double d[3];
+            for (int i = 0; i < 3; i++)
+                d[i] = m->x[3 * v[pm_tet10_edge[k][0]] + i] - m->x[3 * v[pm_tet10_edge[k][1]] + i];
+            edges += sqrt(dot(d, d));
+        }
+    for (ptrdiff_t f = 0; f < m->nf; f++) {
+        double area, flux;
+        face_sums(m, f, &area, &flux);
+        volume += flux;
+    }
+    printf("%td %.6g %.9g\n", m->ne, edges / (6 * (double)m->ne), volume);
+}
+
+int main(int argc, char **argv)
+{
+    struct pm_err err = {.status = PM_OK};
+    struct pm_mesh m = {.nn = 0};
+    enum pm_status status = PM_USAGE;
+    const char *what = argc > 1 ? argv[1] : "";
+
+    if (argc == (strcmp(what, "sizes") == 0 ? 3 : 4))
+        status = pm_mesh_load(argv[2], 0, &m, &err);
+    if (status == PM_OK && strcmp(what, "obj") == 0)
+        status = obj(&m, argv[3], &err);
+    else if (status == PM_OK && strcmp(what, "straight") == 0)
+        status = straight(&m, argv[3], &err);
+    else if (status == PM_OK && strcmp(what, "sizes") == 0)
+        sizes(&m);
+    if (status != PM_OK)
+        fprintf(stderr, "mesh_skin: cannot use '%s': %s\n", argc > 2 ? argv[2] : "", err.text);
+    pm_mesh_release(&m);
+    return (int)status;
+}
