@@ -6,7 +6,7 @@
 #        [REFIT_ELEMENT=NAME] [REFIT_RUN=run/NAME]
 #
 # PRESSURE: one of each chamber, or one for all. REFIT_SPACING: of the control points, by default the mean edge of the
-# tetrahedra given. REFIT_SIZE: edges of the new mesh, by default such that its mean edge is the given one's within 3 %.
+# tetrahedra given over 1.5. REFIT_SIZE: edges of the new mesh, by default such that its mean edge is the given one's within 3 %.
 # REFIT_CREST: see `crest` in pneumorph-case(5); the default hardly refines curved parts, so that meshes are as uniform as
 # those of most meshers.
 # Tetrahedra of 4 nodes get 10 with straight edges, and the new mesh is solved with straight edges, too. Files and the table

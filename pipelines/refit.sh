@@ -37,7 +37,7 @@ linear=()
 h5dump -H -d /mesh/tri "$RUN/given.h5" | grep -q ', 3 )' && linear=(--promote)
 quiet "$BIN/tetmesh" --import "$RUN/given.msh" "${material[@]}" "${linear[@]}" --reference "0,0,$height" -o "$RUN/given.h5"
 read -r tetrahedra edge _ <<<"$(sizes "$RUN/given.h5")"
-spacing=${SPACING:-$edge}
+spacing=${SPACING:-$(awk -v e="$edge" 'BEGIN { printf "%.4g", e / 1.5 }')}
 
 # A case that asks nothing of the shape: control points alike along and around the body.
 {
