@@ -9,10 +9,12 @@
 #include "common/geometry/distance.h"
 #include "common/geometry/domain.h"
 
-/* GEODESIC: half a circle of diameter d is pi/2 d long, so a fold of allowed curvature does not
- * count as its own neighbour. TIGHT: further from its limit, a sample's nearest sample will do for
- * a foot. */
-static const double GEODESIC = 1.6, TIGHT = 0.15;
+/* GEODESIC: half a circle of diameter d is pi/2 d long, so a fold of allowed curvature, or as wide
+ * as a wall, does not count as its own neighbour. Further along the surface the least distance
+ * grows from the diameter of such a fold by RISE per length, so that the end of a fin need not be
+ * thicker than its fold and no limit comes into force at once. TIGHT: further from its limit, a
+ * sample's nearest sample will do for a foot. */
+static const double GEODESIC = 1.6, RISE = 0.25, TIGHT = 0.15;
 
 int pm_feet_moves(const struct pm_surfaces *s, ptrdiff_t m)
 {
@@ -38,10 +40,17 @@ struct collection {
     ptrdiff_t n;
 };
 
+/* Diameter of the sharpest fold that is not its own neighbour. */
+static double fold(const struct pm_case *c)
+{
+    return fmin(c->wall_min, 2 / c->curvature_max);
+}
+
 static double limit_of(const struct pm_penalty *p, const struct pm_near *q)
 {
     const int inside = p->samples.surface[q->i] > 0 ? PM_NEAR_INSIDE : PM_NEAR_OUTSIDE;
-    return q->other == inside ? p->c->void_min : p->c->wall_min;
+    const double limit = q->other == inside ? p->c->void_min : p->c->wall_min;
+    return fmin(limit, fold(p->c) + RISE * (q->along - GEODESIC * fold(p->c)));
 }
 
 /* Foot of sample q->i near q->j, from S; the sample j itself where the search slides along a
@@ -165,8 +174,8 @@ static enum pm_status collect_walls(struct pm_penalty *p, const double *phi, dou
 
     const double wall = p->c->wall_min, cutoff[2] = {hypot(wall + reach, p->cover),
                                                      hypot(p->c->void_min + reach, p->cover)};
-    PM_TRY(pm_samples_near(&p->samples, p->s->ns, p->x, p->normal, p->from, cutoff, GEODESIC * wall,
-                           &near, &n, err));
+    PM_TRY(pm_samples_near(&p->samples, p->s->ns, p->x, p->normal, p->from, cutoff,
+                           GEODESIC * fold(p->c), &near, &n, err));
     PM_TRY(PM_NEW(c.wall, n + 1, err));
     p->nw = 0;
     for (ptrdiff_t k = 0; k < n; k++)
@@ -192,6 +201,7 @@ enum pm_status pm_penalty_collect(struct pm_penalty *p, const double *phi, doubl
 
     for (ptrdiff_t i = 0; i < q->n; i++) {
         pm_samples_at(q, i, phi, &p->x[3 * i], r_a, p->from[i] ? r_ab : NULL);
+        pm_samples_metric(&p->samples, i, r_a);
         pm_curvature_at(r_a, p->from[i] ? r_ab : NULL, &c);
         memcpy(&p->normal[3 * i], c.n, sizeof c.n);
         p->flag[i] = 0;

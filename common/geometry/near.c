@@ -39,7 +39,7 @@ static double length(const double *metric, double a, double b)
     return sqrt(metric[0] * a * a + 2 * metric[1] * a * b + metric[2] * b * b);
 }
 
-/* Estimate of the distance along the surface, never much too small. */
+/* Estimate of the distance along the surface. */
 static double along(const struct pm_samples *m, ptrdiff_t i, ptrdiff_t j, int tube)
 {
     const double *S = &m->S[3 * i], *R = &m->S[3 * j], *g = &m->metric[3 * i],
@@ -49,7 +49,7 @@ static double along(const struct pm_samples *m, ptrdiff_t i, ptrdiff_t j, int tu
     if (tube) {
         double turn = atan2(R[1], R[0]) - atan2(S[1], S[0]);
         turn -= TWO_PI * round(turn / TWO_PI);
-        return fmax(length(g, turn, d[2]), length(h, turn, d[2]));
+        return (length(g, turn, d[2]) + length(h, turn, d[2])) / 2;
     }
     chord = sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     return chord * sqrt(sqrt(fmax(g[0] * g[2] - g[1] * g[1], h[0] * h[2] - h[1] * h[1])));
@@ -146,10 +146,12 @@ enum pm_status pm_samples_near(const struct pm_samples *samples, ptrdiff_t ns, c
         for (int32_t other = PM_NEAR_INSIDE; other < ns; other++) {
             const ptrdiff_t w = other - PM_NEAR_INSIDE;
             const ptrdiff_t k = other < 0 ? samples->surface[i] : other;
-            if (a.found[w][i] >= 0)
-                (*near)[(*n)++] =
-                    (struct pm_near){(int32_t)i, (int32_t)(samples->first[k] + a.found[w][i]),
-                                     other, a.distance[w][i]};
+            if (a.found[w][i] < 0)
+                continue;
+            const ptrdiff_t j = samples->first[k] + a.found[w][i];
+            (*near)[(*n)++] =
+                (struct pm_near){(int32_t)i, (int32_t)j, other, a.distance[w][i],
+                                 other < 0 ? along(samples, i, j, k == 0) : HUGE_VAL};
         }
 done:
     clouds_release(&c);

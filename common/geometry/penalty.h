@@ -7,8 +7,9 @@
  * r* is the foot of the sample on what it faces, m the unit vector from there into the solid: at a
  * foot the derivative of the distance with r* and m held is the exact one, and where surfaces have
  * crossed m pulls them back.
- * d = wall_min through the solid, to other surfaces and to parts of the same one that are further
- * than GEODESIC wall_min along it, void_min through a void (a thin cavity, a groove).
+ * d = wall_min through the solid, void_min through a void (a thin cavity, a groove), to other
+ * surfaces and to parts of the same one that are further along it than the fold of least diameter
+ * D = min(wall_min, 2/Cmax), 1.6 D; of these d is at most D + (distance along - 1.6 D)/4.
  * Chambers keep cap_min from the end planes, the exterior ends there. What no free control point
  * moves does not count. Every constraint has the weight a_q, the sample's share of the area, and a
  * multiplier lambda of the augmented Lagrangian

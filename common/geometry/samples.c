@@ -202,6 +202,18 @@ static enum pm_status add_row(struct pm_samples *m, ptrdiff_t i, const struct pm
     return PM_OK;
 }
 
+void pm_samples_metric(struct pm_samples *m, ptrdiff_t i, const double *r_a)
+{
+    double *g = &m->metric[3 * i];
+
+    memset(g, 0, 3 * sizeof *g);
+    for (int j = 0; j < 3; j++) {
+        g[0] += r_a[j] * r_a[j];
+        g[1] += r_a[j] * r_a[3 + j];
+        g[2] += r_a[3 + j] * r_a[3 + j];
+    }
+}
+
 /* Sample i of surface k, whose S and w are set. */
 static enum pm_status add_sample(struct pm_samples *m, const struct pm_surfaces *s, ptrdiff_t k,
                                  const struct pm_map *map, ptrdiff_t i, struct pm_basis *b,
@@ -217,11 +229,7 @@ static enum pm_status add_sample(struct pm_samples *m, const struct pm_surfaces 
     pm_curvature_at(r_a, NULL, &c);
     m->surface[i] = (int32_t)k;
     m->area[i] = m->w[i] * c.A;
-    for (int j = 0; j < 3; j++) {
-        m->metric[3 * i] += r_a[j] * r_a[j];
-        m->metric[3 * i + 1] += r_a[j] * r_a[3 + j];
-        m->metric[3 * i + 2] += r_a[3 + j] * r_a[3 + j];
-    }
+    pm_samples_metric(m, i, r_a);
 done:
     return status;
 }

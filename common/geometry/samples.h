@@ -12,7 +12,7 @@ struct pm_samples {
     double *S;        /* parameter (n x 3) */
     double *w;        /* share of the parameter domain (n) [1]: integral of f dA = sum w A f */
     double *area;     /* share of the surface at creation, w A (n) [mm2] */
-    double *metric;   /* g_11, g_12, g_22 at creation (n x 3) [mm2] */
+    double *metric;   /* g_11, g_12, g_22 at creation or last pm_samples_metric (n x 3) [mm2] */
     ptrdiff_t *ptr;   /* rows of weights (n + 1) */
     int32_t *col;     /* GLOBAL control point (nw) */
     double *c;        /* r    = sum c phi    (nw) */
@@ -39,6 +39,8 @@ void pm_samples_parameters(const struct pm_surface *s, const double *Phi, ptrdif
  * not wanted. */
 void pm_samples_at(const struct pm_samples *samples, ptrdiff_t i, const double *phi, double *r,
                    double *r_a, double *r_ab);
+/* The metric of sample i where its tangents are r_a (2 x 3). */
+void pm_samples_metric(struct pm_samples *samples, ptrdiff_t i, const double *r_a);
 /* x (n x 3) and unit normals (n x 3, out of the closed surface; NULL: not wanted) of all samples.
  */
 void pm_samples_all(const struct pm_samples *samples, const double *phi, double *x, double *normal);
@@ -57,9 +59,10 @@ struct pm_near {
     int32_t i, j; /* sample, nearest sample there */
     int32_t other;
     double distance; /* [mm] */
+    double along;    /* on its own surface: estimate of the distance along it [mm] */
 };
 /* For every sample i with from[i]: the nearest sample on each other surface, and on its own,
- * further than `geodesic` mm along it (estimate by the metric at creation), the nearest that it
+ * further than `geodesic` mm along it (estimate by the metric of the samples), the nearest that it
  * faces, within 60 degrees of both normals, through the outside and through the inside of the
  * closed surface. They are closer than cutoff[0] through the solid, cutoff[1] through a void, which
  * is inside chambers and outside the exterior. Of equally near ones the first. Sorted by i, then

@@ -133,6 +133,40 @@ static void check_measured(void)
     pm_surfaces_release(&s);
 }
 
+/* The void between the faces of a lens, 2 mm wide, where 3 mm are asked for of what is no fold. */
+static double lack_of_lens(double a)
+{
+    const struct robot_chamber chamber = {.center = {0.5, 0.2, 30}, .axes = {a, a, 1.1}};
+    struct pm_surfaces s = {0};
+    double curvature[2], wall[4] = {0, 0, 0, NAN};
+    char buffer[512];
+
+    snprintf(buffer, sizeof buffer, text, 3.0, 1.0, 2.0, "void_min = 3\n");
+    if (pm_case_parse(buffer, "test", &s.pcase, &err) == PM_OK &&
+        robot_init(&s, 14, 60, 1, &chamber, &err) == PM_OK &&
+        PM_NEW(s.perm, s.offset[s.ns], &err) == PM_OK)
+        pm_penalty_survey(&s, curvature, wall, &err);
+    pm_surfaces_release(&s);
+    return wall[3];
+}
+
+/* The limit grows with the way along the surface by 1/4 mm a mm, so 1 - 2/limit by less than 0.25/mm
+ * as the lens grows by twice that way; samples that change add a little. */
+static void check_continuous(void)
+{
+    const double step = 0.05;
+    double last = lack_of_lens(1.5), most = 0;
+
+    ok(last == 0, "a ball of 3 mm is a fold");
+    for (int k = 1; k <= 36; k++) {
+        const double now = lack_of_lens(1.5 + step * k);
+        most = fmax(most, fabs(now - last));
+        last = now;
+    }
+    ok(most < 2 * 0.25 * step + 0.01, "no limit comes into force at once: %.4f", most);
+    ok(last > 0.25, "a lens of 6.6 mm lacks %.3f", last);
+}
+
 int main(void)
 {
     const double bend[2] = {2, 0}, wall[2] = {0, 3}, both[2] = {2, 3};
@@ -147,5 +181,6 @@ int main(void)
     check_gradient("all", &(struct limits){4, 0.3, 8, "domain = cylinder\ndomain_radius = 13\n"},
                    both);
     check_measured();
+    check_continuous();
     return tap_done();
 }
