@@ -6,7 +6,7 @@
 #include "common/base/memory.h"
 #include "common/geometry/penalty.h"
 #include "common/geometry/symmetry.h"
-#include "tools/trstep/near.h"
+#include "tools/trstep/gaps.h"
 #include "tools/trstep/secants.h"
 #include "tools/trstep/subproblem.h"
 #include "tools/trstep/trstep.h"
@@ -49,7 +49,7 @@ static double penalise(void *context, const double *step, double *gradient)
     move(p, step);
     pm_penalty_at(&p->penalty, p->trial, p->rho, gradient, &v);
     return v.lagrangian - secants_at(&p->secants, step, -1, gradient) +
-           near_at(p->s, step, 1, gradient);
+           gaps_at(p->s, step, 1, gradient);
 }
 
 static void project(void *context, double *v)
@@ -111,7 +111,7 @@ static enum pm_status complete(struct proposal *p, struct pm_err *err)
     const struct subproblem problem = subproblem_of(p);
 
     PM_TRY(measure(p, &p->penalty, p->trial, s->trial_penalty, s->trial_worst, err));
-    s->gain = secants_value(&p->secants, p->step) - near_at(s, p->step, 0, NULL);
+    s->gain = secants_value(&p->secants, p->step) - gaps_at(s, p->step, 0, NULL);
     s->max_step = 0;
     for (ptrdiff_t i = 0; i < 3 * p->N; i++)
         s->gain += s->gradient[i] * p->step[i];

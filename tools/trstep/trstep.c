@@ -7,9 +7,8 @@
 #include "common/base/log.h"
 #include "common/base/memory.h"
 #include "common/files/sens.h"
-#include "common/geometry/penalty.h"
 #include "common/geometry/symmetry.h"
-#include "tools/trstep/near.h"
+#include "tools/trstep/gaps.h"
 #include "tools/trstep/secants.h"
 
 struct trial {
@@ -55,34 +54,6 @@ static enum pm_status compare_surfaces(struct trial *t, const char *path, struct
     return PM_OK;
 }
 
-/* New control points may not break what trials hold: curvature and walls, as samples of their own
- * see them. */
-static enum pm_status judge_rebuilt(struct trial *t, struct pm_err *err)
-{
-    static const double allowed[2] = {0.3, 0.025};
-    static const char *const what[2] = {"curvature", "walls"};
-    enum pm_status status;
-    const ptrdiff_t ns = t->surfaces.ns;
-    double curvature[PM_MAX_CHAMBERS + 1], wall[(PM_MAX_CHAMBERS + 1) * (PM_MAX_CHAMBERS + 1)];
-    double worst[2] = {0};
-
-    PM_TRY(pm_penalty_survey(&t->surfaces, curvature, wall, err));
-    for (ptrdiff_t k = 0; k < ns; k++)
-        worst[0] = fmax(worst[0], curvature[k]);
-    for (ptrdiff_t k = 0; k < ns * ns; k++)
-        worst[1] = fmax(worst[1], wall[k]);
-    for (int k = 0; k < 2; k++)
-        if (worst[k] > fmax(allowed[k], t->previous.worst[k])) {
-            t->judgement.accepted = 0;
-            t->judgement.kept = 1;
-            snprintf(t->judgement.reason, sizeof t->judgement.reason,
-                     "new control points violate %s by %.3g, the old ones by %.3g", what[k],
-                     worst[k], t->previous.worst[k]);
-        }
-done:
-    return status;
-}
-
 static enum pm_status load_trial(const struct trstep_opts *opts, char *const *paths,
                                  struct trial *t, struct pm_err *err)
 {
@@ -101,8 +72,6 @@ static enum pm_status load_trial(const struct trstep_opts *opts, char *const *pa
         PM_TRY(compare_surfaces(t, paths[0], err));
     }
     trust_judge(t->before, &t->work, &t->judgement);
-    if (t->rebuilt && t->judgement.accepted)
-        PM_TRY(judge_rebuilt(t, err));
     if (t->before == NULL && !t->judgement.accepted)
         PM_TRY(pm_fail(err, PM_NUMERIC, "the first design failed: %s", t->judgement.reason));
     if (t->before == NULL && !(t->work.value > 0))
@@ -147,7 +116,7 @@ static enum pm_status sum_gradient(const struct trial *t, char *const *paths, in
             for (ptrdiff_t i = 0; i < 3 * N; i++)
                 step->gradient[i] += weight * g[i];
             pm_symmetrise_vectors(&t->surfaces, g);
-            PM_TRY(near_add(step, weight, s.close_value[r], g, err));
+            PM_TRY(gaps_add(step, weight, s.close_value[r], g, err));
         }
         pm_sens_release(&s);
     }
@@ -174,7 +143,7 @@ static enum pm_status set_base(const struct trial *t, char *const *sens, int nse
     if (t->judgement.accepted)
         PM_TRY(sum_gradient(t, sens, nsens, s, err));
     else
-        PM_TRY(near_copy(&t->previous, s, err));
+        PM_TRY(gaps_copy(&t->previous, s, err));
     for (ptrdiff_t i = 0; i < 3 * N && !t->judgement.accepted; i++)
         s->gradient[i] = t->previous.gradient[i];
     PM_TRY(secants_collect(t->rebuilt && t->judgement.accepted ? NULL : t->before,

@@ -8,7 +8,6 @@
 struct judgement {
     int accepted;
     int renewed;      /* the accepted design on a new mesh: nothing to judge but that it works */
-    int kept;         /* the old control points are better: it says nothing of the design */
     int worn;         /* the mesh did not bear the step: it says nothing of the design */
     double ratio;     /* actual over predicted gain of merit, 0 where there is none */
     char reason[160]; /* of a rejection, "" */
@@ -24,8 +23,7 @@ struct judgement {
 void trust_judge(const struct pm_step *previous, const struct pm_work *work, struct judgement *j);
 /* Radius after a judged trial: ratio below 0.1 or rejected: a third of the step; up to 0.3: 1/1.5;
  * above 0.75 with the step at a bound: 1.5 times, at most radius_max of the case; kept where the
- * design was renewed or its new control points were not taken, and where the mesh was worn unless
- * it was new. */
+ * design was renewed, and where the mesh was worn unless it was new. */
 double trust_radius(const struct pm_step *previous, const struct judgement *j);
 /* Is it time to renew control points and mesh before the next trial? Where the mesh was worn (and
  * not new), and at every remesh_every-th trial. trials (n), the last one just judged by j. */

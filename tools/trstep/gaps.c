@@ -1,4 +1,4 @@
-#include "tools/trstep/near.h"
+#include "tools/trstep/gaps.h"
 
 #include <math.h>
 #include <string.h>
@@ -10,7 +10,7 @@ static ptrdiff_t unknowns(const struct pm_step *s)
     return 3 * s->accepted.offset[s->accepted.ns];
 }
 
-double near_at(const struct pm_step *s, const double *d, double factor, double *slope)
+double gaps_at(const struct pm_step *s, const double *d, double factor, double *slope)
 {
     const ptrdiff_t n = unknowns(s);
     double sum = 0;
@@ -27,7 +27,7 @@ double near_at(const struct pm_step *s, const double *d, double factor, double *
     return sum;
 }
 
-enum pm_status near_add(struct pm_step *s, double weight, double value, const double *gradient,
+enum pm_status gaps_add(struct pm_step *s, double weight, double value, const double *gradient,
                         struct pm_err *err)
 {
     const ptrdiff_t n = unknowns(s), k = s->nclose;
@@ -41,11 +41,11 @@ enum pm_status near_add(struct pm_step *s, double weight, double value, const do
     return PM_OK;
 }
 
-enum pm_status near_copy(const struct pm_step *from, struct pm_step *to, struct pm_err *err)
+enum pm_status gaps_copy(const struct pm_step *from, struct pm_step *to, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     for (ptrdiff_t k = 0; k < from->nclose; k++)
-        PM_TRY(near_add(to, from->close_weight[k], from->close_value[k],
+        PM_TRY(gaps_add(to, from->close_weight[k], from->close_value[k],
                         from->close_gradient + unknowns(from) * k, err));
 done:
     return status;

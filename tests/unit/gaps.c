@@ -1,5 +1,5 @@
 /* The model of closeness: exact at the design, its slope, no gain beyond open gaps. */
-#include "tools/trstep/near.h"
+#include "tools/trstep/gaps.h"
 
 #include <math.h>
 #include <string.h>
@@ -23,23 +23,23 @@ int main(void)
         d[i] = 0.1 * cos(3.0 * i + 1);
         norm += g[0][i] * g[0][i];
     }
-    near_abs("nothing is close", near_at(&s, d, 1, slope), 0, 0);
-    ok(near_add(&s, 2, 0.5, g[0], &err) == PM_OK && near_add(&s, 3, 0.7, g[1], &err) == PM_OK &&
+    near_abs("nothing is close", gaps_at(&s, d, 1, slope), 0, 0);
+    ok(gaps_add(&s, 2, 0.5, g[0], &err) == PM_OK && gaps_add(&s, 3, 0.7, g[1], &err) == PM_OK &&
            s.nclose == 2,
        "two states %s", err.text);
-    near_at(&s, (double[UNKNOWNS]){0}, 1, slope);
+    gaps_at(&s, (double[UNKNOWNS]){0}, 1, slope);
     for (int i = 0; i < UNKNOWNS; i++)
         slope[i] -= 2 * g[0][i] + 3 * g[1][i];
     near_array("at the design the slope is a dG", slope, (double[UNKNOWNS]){0}, UNKNOWNS, 1e-15);
 
     memset(slope, 0, sizeof slope);
-    near_at(&s, d, -1, slope);
+    gaps_at(&s, d, -1, slope);
     for (int i = 0; i < UNKNOWNS; i++) {
         double ends[2], moved[UNKNOWNS];
         for (int k = 0; k < 2; k++) {
             memcpy(moved, d, sizeof moved);
             moved[i] += k == 0 ? 1e-4 : -1e-4;
-            ends[k] = near_at(&s, moved, 0, NULL);
+            ends[k] = gaps_at(&s, moved, 0, NULL);
         }
         slope[i] += (ends[0] - ends[1]) / 2e-4;
     }
@@ -51,11 +51,11 @@ int main(void)
         along += opening[i] * g[1][i];
     }
     const double other = fmax(sqrt(0.7) + along / (2 * sqrt(0.7)), 0);
-    near_rel("opened, it gives its own closeness", near_at(&s, opening, 0, NULL),
+    near_rel("opened, it gives its own closeness", gaps_at(&s, opening, 0, NULL),
              -2 * 0.5 + 3 * (other * other - 0.7), 1e-12);
 
-    ok(near_copy(&s, &copy, &err) == PM_OK, "a copy");
-    near_rel("is alike", near_at(&copy, d, 0, NULL), near_at(&s, d, 0, NULL), 0);
+    ok(gaps_copy(&s, &copy, &err) == PM_OK, "a copy");
+    near_rel("is alike", gaps_at(&copy, d, 0, NULL), gaps_at(&s, d, 0, NULL), 0);
     pm_step_release(&(struct pm_step){.nclose = 2,
                                       .close_weight = s.close_weight,
                                       .close_value = s.close_value,
