@@ -23,6 +23,7 @@ struct pm_shell {
 
 struct pm_shell_opts {
     double size;                  /* wanted edge length [mm] */
+    double crest;                 /* and over the radius of curvature */
     double timeout;               /* of gmsh [s], 0: none */
     const struct pm_walls *walls; /* edges are shorter at thin walls (walls.h), or NULL */
 };

@@ -41,7 +41,7 @@ enum pm_status pm_shell_build(const struct pm_surfaces *s, const struct pm_mirro
     enum pm_status status = PM_OK;
     const double size = opts->size, timeout = opts->timeout;
     struct pm_wall_side side = {.walls = opts->walls};
-    struct pm_remesh_opts o = pm_shell_edges(size, s->pcase.mesh_crest);
+    struct pm_remesh_opts o = pm_shell_edges(size, opts->crest);
     struct pm_patch patch = {0};
     *shell = (struct pm_shell){.planes = y->planes};
     o.bound = opts->walls != NULL ? pm_walls_bound : NULL;

@@ -16,6 +16,10 @@
 #include "tools/tetmesh/volume_gmsh.h"
 #include "tools/tetmesh/walls.h"
 
+/* Tries with shorter edges, all but the first with crests as much finer. */
+enum { TRIES = 3 };
+static const double FINER = 0.8;
+
 /* What is asked of a new mesh. */
 struct sizes {
     double size, timeout; /* [mm], [s] */
@@ -75,23 +79,27 @@ done:
     return status;
 }
 
-/* The surfaces as triangles that pass all checks; where facets meet, once more with shorter ones.
- */
+/* The surfaces as triangles that pass all checks; where facets meet, again with shorter ones: there,
+ * then on all crests as well. */
 static enum pm_status triangulate(struct pm_middles *middles, const struct pm_mirrors *y,
                                   const struct sizes *sizes, struct shells *s, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const ptrdiff_t nchambers = middles->s->ns - 1;
-    const struct pm_shell_opts o = {.size = sizes->size, .timeout = sizes->timeout};
+    struct pm_shell_opts o = {
+        .size = sizes->size, .crest = middles->s->pcase.mesh_crest, .timeout = sizes->timeout};
     PM_TRY(build(middles, y, &o, s, err));
     if (sizes->layers > 0)
         PM_TRY(rebuild(middles, y, sizes->layers, 0, o, s, err));
     status = pm_shell_check(&s->flat, &s->bent, nchambers, err);
-    if (status == PM_INPUT) {
-        pm_log(1, "%s: shorter edges there", err->text);
+    for (int k = 0; status == PM_INPUT && k < TRIES; k++) {
+        if (k == 0)
+            pm_log(1, "%s: shorter edges there", err->text);
+        else
+            pm_log(1, "%s: edges of %.3g times the radii of crests", err->text, o.crest *= FINER);
         *err = (struct pm_err){.status = PM_OK};
         PM_TRY(rebuild(middles, y, sizes->layers, 1, o, s, err));
-        PM_TRY(pm_shell_check(&s->flat, &s->bent, nchambers, err));
+        status = pm_shell_check(&s->flat, &s->bent, nchambers, err);
     }
 done:
     return status;
