@@ -149,9 +149,8 @@ enum pm_status pm_samples_near(const struct pm_samples *samples, ptrdiff_t ns, c
             if (a.found[w][i] < 0)
                 continue;
             const ptrdiff_t j = samples->first[k] + a.found[w][i];
-            (*near)[(*n)++] =
-                (struct pm_near){(int32_t)i, (int32_t)j, other, a.distance[w][i],
-                                 other < 0 ? along(samples, i, j, k == 0) : HUGE_VAL};
+            (*near)[(*n)++] = (struct pm_near){(int32_t)i, (int32_t)j, other, a.distance[w][i],
+                                               other < 0 ? along(samples, i, j, k == 0) : HUGE_VAL};
         }
 done:
     clouds_release(&c);

@@ -233,17 +233,39 @@ done:
     return status;
 }
 
+static const double MOST = 2e5; /* nodes */
+
 /* A size far too small for the surface would fill the memory: about 2 A / (sqrt 3 h^2) nodes. */
 static enum pm_status check_size(const struct pm_edit *m, int surface, double size,
                                  struct pm_err *err)
 {
     const double area = pm_edit_area(m), nodes = 2 * area / (sqrt(3) * size * size);
-    if (nodes <= 2e5)
+    if (nodes <= MOST)
         return PM_OK;
     return pm_fail(
         err, PM_INPUT,
-        "surface %d: edges of %g mm need about %.1e nodes on %.3g mm2, expected 2e5 at most",
-        surface, size, nodes, area);
+        "surface %d: edges of %g mm need about %.1e nodes on %.3g mm2, expected %.0e at most",
+        surface, size, nodes, area, MOST);
+}
+
+/* So would a surface that is nearly folded, all over or in one place. */
+static enum pm_status check_nodes(const struct pm_edit *m, int surface, struct pm_err *err)
+{
+    ptrdiff_t sharpest = -1, n = 0;
+    if ((double)m->nn <= MOST)
+        return PM_OK;
+    for (ptrdiff_t a = 0; a < m->nn; a++)
+        if (m->degree[a] > 0) {
+            n++;
+            sharpest = sharpest < 0 || m->size[a] < m->size[sharpest] ? a : sharpest;
+        }
+    if ((double)n <= MOST)
+        return PM_OK;
+    const double *x = m->x + 3 * sharpest;
+    return pm_fail(err, PM_INPUT,
+                   "surface %d: edges as its curvature asks for, down to %.3g mm at (%.3f, %.3f, "
+                   "%.3f) mm, need more than %.0e nodes",
+                   surface, m->size[sharpest], x[0], x[1], x[2], MOST);
 }
 
 /* Even triangles keep their number over a wide range of sizes, as no edge or all of them leave the
@@ -275,6 +297,7 @@ enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct p
         const double longest = sweep % 2 == 1 && !even(&m) ? fine : pm_edit_longest;
         for (int pass = 0; pass < 20 && count > 0; pass++) {
             PM_TRY(pm_edit_split(&m, longest, &count, err));
+            PM_TRY(check_nodes(&m, surface, err));
             pm_edit_flip(&m);
         }
         pm_edit_collapse(&m);

@@ -33,7 +33,8 @@ struct pm_patch {
 /* Size h = min(size, crest / largest principal curvature, bound) >= size_min at nodes and in the
  * middle of edges, limited in growth; edges end up within about [4/5, 4/3] h, 1.05 to 1.3 triangles
  * for each equilateral one with edges h. Starts from the triangulation of the control points.
- * PM_INPUT where that triangulation is unusable (folded in the parameter, not a manifold),
+ * PM_INPUT where that triangulation is unusable (folded in the parameter, not a manifold) or the
+ * sizes ask for more than 2e5 nodes,
  * PM_NUMERIC where the map fails. `surface` is its number in messages. Cost: some 20 evaluations
  * per node, 40 where size_min < size. */
 enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct pm_remesh_opts *o,

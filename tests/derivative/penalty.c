@@ -150,8 +150,8 @@ static double lack_of_lens(double a)
     return wall[3];
 }
 
-/* The limit grows with the way along the surface by 1/4 mm a mm, so 1 - 2/limit by less than 0.25/mm
- * as the lens grows by twice that way; samples that change add a little. */
+/* The limit grows with the way along the surface by 1/4 mm a mm, so 1 - 2/limit by less than
+ * 0.25/mm as the lens grows by twice that way; samples that change add a little. */
 static void check_continuous(void)
 {
     const double step = 0.05;

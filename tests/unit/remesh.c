@@ -287,6 +287,11 @@ int main(void)
         .size = 1e-3, .size_min = 1e-3, .crest = 1, .growth = 1, .sweeps = 1};
     ok(pm_remesh(&r.s[1], 1, &tiny, &p, &err) == PM_INPUT && strstr(err.text, "nodes on") != NULL,
        "%s", err.text);
+    const struct pm_remesh_opts sharp = {
+        .size = 1, .size_min = 1e-3, .crest = 0.01, .growth = 10, .sweeps = 1};
+    err = (struct pm_err){.status = PM_OK};
+    ok(pm_remesh(&r.s[1], 1, &sharp, &p, &err) == PM_INPUT && strstr(err.text, "curvature") != NULL,
+       "%s", err.text);
     pm_surfaces_release(&r);
     return tap_done();
 }

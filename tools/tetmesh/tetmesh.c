@@ -16,8 +16,7 @@
 #include "tools/tetmesh/volume_gmsh.h"
 #include "tools/tetmesh/walls.h"
 
-/* Tries with shorter edges, all but the first with crests as much finer. */
-enum { TRIES = 3 };
+/* Crests get finer by this factor, while edges are longer than their radii. */
 static const double FINER = 0.8;
 
 /* What is asked of a new mesh. */
@@ -79,8 +78,8 @@ done:
     return status;
 }
 
-/* The surfaces as triangles that pass all checks; where facets meet, again with shorter ones: there,
- * then on all crests as well. */
+/* The surfaces as triangles that pass all checks; where facets meet, again with shorter ones:
+ * there, then on all crests as well. */
 static enum pm_status triangulate(struct pm_middles *middles, const struct pm_mirrors *y,
                                   const struct sizes *sizes, struct shells *s, struct pm_err *err)
 {
@@ -92,7 +91,7 @@ static enum pm_status triangulate(struct pm_middles *middles, const struct pm_mi
     if (sizes->layers > 0)
         PM_TRY(rebuild(middles, y, sizes->layers, 0, o, s, err));
     status = pm_shell_check(&s->flat, &s->bent, nchambers, err);
-    for (int k = 0; status == PM_INPUT && k < TRIES; k++) {
+    for (int k = 0; status == PM_INPUT && (k == 0 || o.crest > 1); k++) {
         if (k == 0)
             pm_log(1, "%s: shorter edges there", err->text);
         else

@@ -73,8 +73,7 @@ double trust_radius(const struct pm_step *previous, const struct judgement *j)
     const struct pm_case *c = &previous->trial.pcase;
     const double bound =
         fmax(previous->rms_step / previous->radius, previous->max_step / (2 * previous->radius));
-    if ((j->renewed && j->accepted) ||
-        (j->worn && !fresh(previous->trials, previous->ntrials - 1)))
+    if ((j->renewed && j->accepted) || (j->worn && !fresh(previous->trials, previous->ntrials - 1)))
         return previous->radius;
     if (!j->accepted) { /* of the step itself: constraints may have made it shorter than the radius
                          */
