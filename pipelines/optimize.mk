@@ -97,7 +97,7 @@ $D/step.h5: $(SURF) $D/work.h5
 
 # What only reports and pictures need: the points of the volume form, the measure by both forms, the corners of the
 # actuation box.
-VOLUMES := $(patsubst %,$D/volume-%.h5,$(shell seq -f %02g 0 $$(($(shell $(BIN)/wsint --points --form volume $(RUN)/case.ini | awk 'NR > 1 && $$3 > 0' | wc -l) - 1))))
+VOLUMES := $(patsubst %,$D/volume-%.h5,$(shell seq -f %02g 0 $$(($(shell $(BIN)/wsint --points --form volume $(RUN)/case.ini 2>/dev/null | awk 'NR > 1 && $$3 > 0' | wc -l) - 1))))
 $(VOLUMES): $D/volume-%.h5: $D/mesh.h5 | $(STATES)
 	@$(STAGE) 'volume $*' $(LAUNCH) $(BIN)/fesolve --form volume --load $(shell printf %d $$((10#$*))) $(addprefix --guess ,$(STATES)) $< -o $@
 $D/both.h5: $(STATES) $(VOLUMES)

@@ -9,7 +9,7 @@
 # tetrahedra given over 1.5. REFIT_SIZE: edges of the new mesh, by default such that its mean edge is the given one's within 3 %.
 # REFIT_CREST: see `crest` in pneumorph-case(5); the default hardly refines curved parts, so that meshes are as uniform as
 # those of most meshers.
-# Edges of chambers should be rounded: the fit nearly folds at sharp ones, and remeshing does not end there in minutes.
+# Edges of chambers should be rounded: the fit nearly folds at sharp ones, and tetmesh refuses that.
 # Tetrahedra of 4 nodes get 10 with straight edges, and the new mesh is solved with straight edges, too. Files and the table
 # go to REFIT_RUN.
 MSH ?=
