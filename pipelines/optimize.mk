@@ -44,7 +44,6 @@ ifneq ($(ITER),)
 D := $(RUN)/$(ITER)
 NUMBER := $(shell printf %d $$((10#$(ITER:it%=%))))
 PREV := $(RUN)/it$(shell printf %03d $$((10#$(ITER:it%=%) - 1)))
-setting = $(shell awk -F '[ =]+' '$$1 == "$(1)" { print $$2 }' $(RUN)/case.ini)
 NG := $(shell $(BIN)/wsint --points $(RUN)/case.ini | awk 'NR > 1' | wc -l)
 POINTS := $(shell seq -f %02g 0 $$(($(NG) - 1)))
 STATES := $(POINTS:%=$D/state-%.h5)
@@ -103,8 +102,9 @@ $(VOLUMES): $D/volume-%.h5: $D/mesh.h5 | $(STATES)
 $D/both.h5: $(STATES) $(VOLUMES)
 	@$(STAGE) wsint $(BIN)/wsint $(SIGN) $^ -o $@
 comma := ,
-PMIN := $(or $(call setting,pmin),0)
-PMAX := $(call setting,pmax)
+# The least and the largest pressure of the box, corners of which every interval has.
+PMIN = $(shell $(BIN)/wsint --boundary 1 $(RUN)/case.ini | tr ' \t' '\n\n' | sort -g | sed -n '1p')
+PMAX = $(shell $(BIN)/wsint --boundary 1 $(RUN)/case.ini | tr ' \t' '\n\n' | sort -g | sed -n '$$p')
 CORNERS := $(patsubst %,$D/corner-%.h5,0-0 1-0 1-1 0-0-0 1-0-0 1-1-1 0-0-0-0-0-0 1-0-0-0-0-0 1-1-1-1-1-1)
 $(CORNERS): $D/corner-%.h5: $D/mesh.h5 | $(STATES)
 	@$(STAGE) 'corner $*' $(LAUNCH) $(BIN)/fesolve $(addprefix --guess ,$(STATES)) $< -o $@ \
