@@ -52,15 +52,17 @@ static double length(const double *a, const double *b)
 static struct pm_near brute(const struct pm_samples *m, const double *x, const double *normal,
                             ptrdiff_t i, int32_t other, double cutoff)
 {
-    struct pm_near best = {(int32_t)i, -1, other, cutoff};
+    struct pm_near best = {.i = (int32_t)i, .j = -1, .other = other, .distance = cutoff};
     const int32_t k = other < 0 ? m->surface[i] : other;
     const double side = other == PM_NEAR_INSIDE ? -1 : 1;
 
     for (ptrdiff_t j = m->first[k]; j < m->first[k + 1]; j++) {
         const double *a = &x[3 * i], *b = &x[3 * j], d = length(a, b);
         if (d < best.distance && (other >= 0 || (side * across(&normal[3 * i], a, b) > d / 2 &&
-                                                 side * across(&normal[3 * j], b, a) > d / 2)))
-            best = (struct pm_near){(int32_t)i, (int32_t)j, other, d};
+                                                 side * across(&normal[3 * j], b, a) > d / 2))) {
+            best.j = (int32_t)j;
+            best.distance = d;
+        }
     }
     return best;
 }
