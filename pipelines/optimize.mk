@@ -102,11 +102,10 @@ $(VOLUMES): $D/volume-%.h5: $D/mesh.h5 | $(STATES)
 $D/both.h5: $(STATES) $(VOLUMES)
 	@$(STAGE) wsint $(BIN)/wsint $(SIGN) $^ -o $@
 comma := ,
-# The least and the largest pressure of the box, corners of which every interval has.
-PMIN = $(shell $(BIN)/wsint --boundary 1 $(RUN)/case.ini | tr ' \t' '\n\n' | sort -g | sed -n '1p')
-PMAX = $(shell $(BIN)/wsint --boundary 1 $(RUN)/case.ini | tr ' \t' '\n\n' | sort -g | sed -n '$$p')
+# From the least to the largest pressure of the box, the corners of which every interval has.
+PRESSURES = $(shell $(BIN)/wsint --boundary 1 $(RUN)/case.ini | tr ' \t' '\n\n' | sort -gu)
 CORNERS := $(patsubst %,$D/corner-%.h5,0-0 1-0 1-1 0-0-0 1-0-0 1-1-1 0-0-0-0-0-0 1-0-0-0-0-0 1-1-1-1-1-1)
 $(CORNERS): $D/corner-%.h5: $D/mesh.h5 | $(STATES)
 	@$(STAGE) 'corner $*' $(LAUNCH) $(BIN)/fesolve $(addprefix --guess ,$(STATES)) $< -o $@ \
-		--pressure $(subst a,$(PMIN),$(subst b,$(PMAX),$(subst 0,a,$(subst 1,b,$(subst -,$(comma),$*)))))
+		--pressure $(subst a,$(firstword $(PRESSURES)),$(subst b,$(lastword $(PRESSURES)),$(subst 0,a,$(subst 1,b,$(subst -,$(comma),$*)))))
 endif

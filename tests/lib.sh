@@ -88,3 +88,16 @@ finish() {
     echo "1..$count"
     exit "$((failed > 0))"
 }
+
+# fill_body SKIN.msh BODY.msh: gmsh fills the body of two chambers whose surfaces surfexport wrote.
+fill_body() {
+    cat >"$work/body.geo" <<END
+Merge "$1";
+Surface Loop(1) = {1, 2, 3};
+Surface Loop(2) = {4};
+Surface Loop(3) = {5};
+Volume(1) = {1, 2, 3};
+Physical Volume("body") = {1};
+END
+    gmsh -3 -nt 1 -v 2 -format msh41 "$work/body.geo" -o "$2"
+}

@@ -49,15 +49,7 @@ check "has no wall" sh -c "! h5ls -r '$work/mould.h5' | grep -q /skin/wall"
 
 # gmsh fills the body, tetmesh takes it back with its groups.
 check "gmsh file" "$export" -q --size 8 --tolerance 0.5 "$work/s.h5" -o "$work/skin.msh"
-cat >"$work/body.geo" <<END
-Merge "$work/skin.msh";
-Surface Loop(1) = {1, 2, 3};
-Surface Loop(2) = {4};
-Surface Loop(3) = {5};
-Volume(1) = {1, 2, 3};
-Physical Volume("body") = {1};
-END
-check "gmsh meshes it" gmsh -3 -format msh41 "$work/body.geo" -o "$work/body.msh"
+check "gmsh meshes it" fill_body "$work/skin.msh" "$work/body.msh"
 expect 0 "tetmesh takes it" "$BIN/tetmesh" -v --import "$work/body.msh" --mu 1 --promote -o "$work/mesh.h5"
 check "with two chambers" grep -q '(0): 2$' <(h5dump -d /mesh/chambers "$work/mesh.h5")
 

@@ -7,15 +7,7 @@ refit() {
 }
 check "surfaces" "$BIN/surfgen" -q tests/data/tiny.ini -o "$work/s.h5"
 check "triangles" "$BIN/surfexport" -q --size 5 --tolerance 0.5 "$work/s.h5" -o "$work/skin.msh"
-cat >"$work/body.geo" <<END
-Merge "$work/skin.msh";
-Surface Loop(1) = {1, 2, 3};
-Surface Loop(2) = {4};
-Surface Loop(3) = {5};
-Volume(1) = {1, 2, 3};
-Physical Volume("body") = {1};
-END
-check "gmsh fills the body" gmsh -3 -nt 1 -v 2 -format msh41 "$work/body.geo" -o "$work/body.msh"
+check "gmsh fills the body" fill_body "$work/skin.msh" "$work/body.msh"
 gzip "$work/body.msh"
 expect 0 "runs" refit "$work/body.msh.gz" 0.5 0.03,0
 sed 's/^/# /' "$work/out"

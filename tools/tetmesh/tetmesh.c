@@ -92,11 +92,12 @@ static enum pm_status triangulate(struct pm_middles *middles, const struct pm_mi
         PM_TRY(rebuild(middles, y, sizes->layers, 0, o, s, err));
     status = pm_shell_check(&s->flat, &s->bent, nchambers, err);
     for (int k = 0; status == PM_INPUT && (k == 0 || o.crest > 1); k++) {
-        o.crest *= k > 0 ? FINER : 1;
-        if (k == 0)
+        if (k == 0) {
             pm_log(1, "%s: shorter edges there", err->text);
-        else
+        } else {
+            o.crest *= FINER;
             pm_log(1, "%s: edges of %.3g times the radii of crests", err->text, o.crest);
+        }
         *err = (struct pm_err){.status = PM_OK};
         PM_TRY(rebuild(middles, y, sizes->layers, 1, o, s, err));
         status = pm_shell_check(&s->flat, &s->bent, nchambers, err);
