@@ -10,8 +10,9 @@
 # REFIT_CREST: see `crest` in pneumorph-case(5); the default hardly refines curved parts, so that meshes are as uniform as
 # those of most meshers.
 # Edges of chambers should be rounded: the fit nearly folds at sharp ones, and tetmesh refuses that.
-# Tetrahedra of 4 nodes get 10 with straight edges, and the new mesh is solved with straight edges, too. Files and the table
-# go to REFIT_RUN.
+# Tetrahedra of 4 nodes get 10 with straight edges, and the new mesh is solved with straight edges, too; the given mesh is solved
+# once more with its surface nodes, mid-side ones too, moved to the fitted surfaces, which changes the shape alone. Where the fitted surfaces
+# cannot be meshed the table ends there, with the reason and the status of tetmesh. Files and the table go to REFIT_RUN.
 MSH ?=
 MU ?=
 KAPPA ?=

@@ -57,18 +57,26 @@ files=(--body "$RUN/body.obj")
 for k in $(seq "$chambers"); do files+=(--chamber "$k=$RUN/chamber$k.obj"); done
 quiet "$BIN/surfgen" -v "${files[@]}" "$RUN/case.ini" -o "$RUN/surf.h5"
 
+bodies='given moved'
+kept=$("$LIB/mesh_skin" moved "$RUN/given.h5" "$RUN/moved.msh" "$RUN/surf.h5")
+quiet "$BIN/tetmesh" --import "$RUN/moved.msh" "${material[@]}" --reference "0,0,$height" -o "$RUN/moved.h5"
+
 # Wanted edges are not mean edges: as long as those differ, once more by what is missing.
-size=${SIZE:-$edge}
+size=${SIZE:-$edge} refused=0
 for _ in 1 2 3; do
-    quiet "$BIN/tetmesh" -v --size "$size" "$RUN/surf.h5" -o "$RUN/curved.h5"
+    "$BIN/tetmesh" -v --size "$size" "$RUN/surf.h5" -o "$RUN/curved.h5" >>"$log" 2>&1 || refused=$?
+    if [ "$refused" -gt 0 ]; then
+        reason=$(tail -n 1 "$log")
+        break
+    fi
     [ -z "$SIZE" ] || break
     read -r _ got _ <<<"$(sizes "$RUN/curved.h5")"
     awk -v a="$edge" -v b="$got" 'BEGIN { exit (a / b - 1) ^ 2 > 0.03 ^ 2 }' && break
     size=$(awk -v a="$edge" -v b="$got" -v s="$size" 'BEGIN { printf "%.4g", s * a / b }')
 done
-bodies='given curved'
-if [ ${#linear[@]} -gt 0 ]; then
-    bodies='given straight curved'
+[ "$refused" -gt 0 ] || bodies="$bodies curved"
+if [ "$refused" -eq 0 ] && [ ${#linear[@]} -gt 0 ]; then
+    bodies='given moved straight curved'
     "$LIB/mesh_skin" straight "$RUN/curved.h5" "$RUN/straight.msh"
     quiet "$BIN/tetmesh" --import "$RUN/straight.msh" "${material[@]}" --promote --reference "0,0,$height" -o "$RUN/straight.h5"
 fi
@@ -103,6 +111,7 @@ report() {
 name() {
     case $1 in
     given) echo given ;;
+    moved) echo "given, moved to the fit but for $kept elements" ;;
     straight) echo 'fitted, straight edges' ;;
     curved) echo fitted ;;
     esac
@@ -131,3 +140,4 @@ differences() {
 
 rm -f "$RUN/poses.tsv"
 report | tee "$RUN/table.md"
+[ "$refused" -eq 0 ] || { echo "refit: no mesh of the fitted surfaces: $reason" >&2; exit "$refused"; }

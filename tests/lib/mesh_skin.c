@@ -4,7 +4,9 @@
  *                                         cylinder of equal volume and height, area of the side
  *                                         wall [mm, mm2], then a point inside each chamber
  *   mesh_skin straight MESH.h5 FILE.msh   its vertices alone: tetrahedra of 4 nodes, gmsh 2.2
- *   mesh_skin sizes MESH.h5               tetrahedra, mean edge [mm], volume of the body [mm3] */
+ *   mesh_skin moved MESH.h5 FILE.msh SURF.h5   all its nodes, those of chambers and side wall at
+ * the nearest points of these surfaces, the inner ones after them mesh_skin sizes MESH.h5
+ * tetrahedra, mean edge [mm], volume of the body [mm3] */
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +15,11 @@
 
 #include "common/base/memory.h"
 #include "common/files/mesh.h"
+#include "common/geometry/cloud.h"
+#include "common/geometry/distance.h"
 #include "common/mechanics/tet10.h"
+#include "tools/tetmesh/curve.h"
+#include "tools/tetmesh/quality.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -175,16 +181,19 @@ done:
     return status;
 }
 
-static enum pm_status straight(const struct pm_mesh *m, const char *path, struct pm_err *err)
+/* npe: nodes of a tetrahedron that are written, 10 or 4. */
+static enum pm_status write_msh(const struct pm_mesh *m, int npe, const char *path,
+                                struct pm_err *err)
 {
     enum pm_status status;
+    const int npf = npe == 10 ? 6 : 3;
     int32_t *id = NULL, n = 0;
     FILE *file = fopen(path, "w");
     if (file == NULL)
         PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s'", path));
     PM_TRY(PM_NEW(id, m->nn, err));
-    for (ptrdiff_t k = 0; k < 4 * m->ne; k++) {
-        int32_t *i = &id[m->tet[m->npe * (k / 4) + k % 4]];
+    for (ptrdiff_t k = 0; k < npe * m->ne; k++) {
+        int32_t *i = &id[m->tet[m->npe * (k / npe) + k % npe]];
         *i = *i == 0 ? ++n : *i;
     }
     fprintf(file, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n%td\n3 1 \"body\"\n",
@@ -201,19 +210,172 @@ static enum pm_status straight(const struct pm_mesh *m, const char *path, struct
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         const int32_t *v = m->tri + m->npf * f, tag = m->tri_tag[f];
         const int32_t group = tag == PM_FACE_BASE ? 2 : tag == PM_FACE_TIP ? 3 : 4 + tag;
-        fprintf(file, "%td 2 2 %d %d %d %d %d\n", f + 1, group, group, id[v[0]], id[v[1]],
-                id[v[2]]);
+        fprintf(file, "%td %d 2 %d %d", f + 1, npf == 6 ? 9 : 2, group, group);
+        for (int k = 0; k < npf; k++)
+            fprintf(file, " %d", id[v[k]]);
+        fprintf(file, "\n");
     }
     for (ptrdiff_t e = 0; e < m->ne; e++) {
         const int32_t *v = m->tet + m->npe * e;
-        fprintf(file, "%td 4 2 1 1 %d %d %d %d\n", m->nf + e + 1, id[v[0]], id[v[1]], id[v[2]],
-                id[v[3]]);
+        fprintf(file, "%td %d 2 1 1", m->nf + e + 1, npe == 10 ? 11 : 4);
+        for (int k = 0; k < npe; k++)
+            fprintf(file, " %d", id[v[k]]);
+        fprintf(file, "\n");
     }
     fprintf(file, "$EndElements\n");
 done:
     pm_free(id);
     if (file != NULL && fclose(file) != 0 && status == PM_OK)
         status = pm_fail(err, PM_SYSTEM, "cannot write '%s'", path);
+    return status;
+}
+
+/* Displacements u (nn x 3) [mm] to the nearest points of surface k of the nodes with its tag;
+ * known: 1 where u is given. */
+static enum pm_status to_surface(const struct pm_mesh *m, const struct pm_surfaces *s, int32_t k,
+                                 const struct pm_samples *samples, double *u, uint8_t *known,
+                                 struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    const struct pm_surface *surface = &s->s[k];
+    const ptrdiff_t first = samples->first[k], n = samples->first[k + 1] - first;
+    struct pm_map *map = NULL;
+    struct pm_cloud *to = NULL, *from = NULL;
+    struct pm_basis work = {0};
+    double *phi = NULL, *x = NULL, *far = NULL;
+    uint8_t *wanted = NULL;
+    int32_t *found = NULL;
+    const struct pm_look look = {.cutoff = INFINITY};
+
+    PM_TRY(PM_NEW(phi, 3 * s->offset[s->ns], err));
+    PM_TRY(PM_NEW(x, 3 * samples->n, err));
+    PM_TRY(PM_NEW(far, m->nn, err));
+    PM_TRY(PM_NEW(found, m->nn, err));
+    PM_TRY(PM_NEW(wanted, m->nn, err));
+    pm_surfaces_gather(s, phi);
+    pm_samples_all(samples, phi, x, NULL);
+    PM_TRY(pm_map_new(surface, &map, err));
+    PM_TRY(pm_cloud_new(n, x + 3 * first, NULL, &to, err));
+    PM_TRY(pm_cloud_new(m->nn, m->x, NULL, &from, err));
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        for (ptrdiff_t j = 0; j < m->npf && m->tri_tag[f] == (k > 0 ? k : PM_FACE_EXTERIOR); j++)
+            wanted[m->tri[m->npf * f + j]] = 1;
+    pm_cloud_look(from, wanted, to, &look, found, far);
+    for (ptrdiff_t a = 0; a < m->nn; a++) {
+        double S[3], r[3], d;
+        if (!wanted[a])
+            continue;
+        memcpy(S, &samples->S[3 * (first + found[a])], sizeof S);
+        PM_TRY(pm_distance_project(map, surface->type, surface->phi, &m->x[3 * a], &work, S, r, &d,
+                                   err));
+        for (int i = 0; i < (known[a] ? 2 : 3); i++) /* rims keep their planes */
+            u[3 * a + i] = r[i] - m->x[3 * a + i];
+        known[a] = 1;
+    }
+done:
+    pm_map_free(map);
+    pm_cloud_free(to);
+    pm_cloud_free(from);
+    pm_basis_release(&work);
+    pm_free(phi);
+    pm_free(x);
+    pm_free(far);
+    pm_free(wanted);
+    pm_free(found);
+    return status;
+}
+
+/* Every vertex that is not known goes by the mean of its neighbours, swept until that settles,
+ * mid-side nodes by the mean of the ends. */
+static enum pm_status spread(const struct pm_mesh *m, const uint8_t *known, double *u,
+                             struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double *sum = NULL, *count = NULL;
+
+    PM_TRY(PM_NEW(sum, 3 * m->nn, err));
+    PM_TRY(PM_NEW(count, m->nn, err));
+    for (int sweep = 0; sweep < 100; sweep++) {
+        memset(sum, 0, 3 * (size_t)m->nn * sizeof *sum);
+        memset(count, 0, (size_t)m->nn * sizeof *count);
+        for (ptrdiff_t k = 0; k < 16 * m->ne; k++) {
+            const int32_t *v = m->tet + m->npe * (k / 16), a = v[k % 4], b = v[k / 4 % 4];
+            for (int i = 0; i < 3 && a != b; i++)
+                sum[3 * a + i] += u[3 * b + i];
+            count[a] += a != b;
+        }
+        for (ptrdiff_t k = 0; k < 3 * m->nn; k++)
+            u[k] = known[k / 3] || !(count[k / 3] > 0) ? u[k] : sum[k] / count[k / 3];
+    }
+    for (ptrdiff_t k = 0; k < 6 * m->ne && m->npe == 10; k++) {
+        const int32_t *v = m->tet + 10 * (k / 6), *ends = pm_tet10_edge[k % 6];
+        for (int i = 0; i < 3 && !known[v[4 + k % 6]]; i++)
+            u[3 * v[4 + k % 6] + i] = (u[3 * v[ends[0]] + i] + u[3 * v[ends[1]] + i]) / 2;
+    }
+done:
+    pm_free(sum);
+    pm_free(count);
+    return status;
+}
+
+/* Elements that curved sides would spoil get straight ones; returns how many. */
+static ptrdiff_t straighten(struct pm_mesh *m)
+{
+    ptrdiff_t count = 0;
+    int bad = m->npe == 10;
+
+    for (int sweep = 0; sweep < 20 && bad; sweep++) {
+        bad = 0;
+        for (ptrdiff_t e = 0; e < m->ne; e++) {
+            const int32_t *v = m->tet + 10 * e;
+            double X[30], chord[30];
+            pm_quality_gather(m, m->x, e, X);
+            if (pm_quality_scaled(X) >= pm_curve_bound)
+                continue;
+            memcpy(chord, X, sizeof X);
+            for (int k = 0; k < 18; k++)
+                chord[12 + k] = (X[3 * pm_tet10_edge[k / 3][0] + k % 3] +
+                                 X[3 * pm_tet10_edge[k / 3][1] + k % 3]) /
+                                2;
+            for (int k = 12; k < 30; k++)
+                m->x[3 * v[k / 3] + k % 3] = chord[k];
+            bad = bad || memcmp(chord, X, sizeof X) != 0;
+            count += memcmp(chord, X, sizeof X) != 0;
+        }
+    }
+    return count;
+}
+
+static enum pm_status moved(struct pm_mesh *m, const char *path, const char *surfaces,
+                            struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    struct pm_surfaces s = {0};
+    struct pm_samples samples = {0};
+    double *u = NULL;
+    uint8_t *known = NULL;
+
+    PM_TRY(pm_surfaces_load(surfaces, &s, err));
+    if (s.ns != m->nc + 1)
+        PM_TRY(pm_fail(err, PM_INPUT, "found %td surfaces, expected %td", s.ns, m->nc + 1));
+    PM_TRY(pm_samples_new(&s, HUGE_VAL, 2, &samples, err));
+    PM_TRY(PM_NEW(u, 3 * m->nn, err));
+    PM_TRY(PM_NEW(known, m->nn, err));
+    for (ptrdiff_t k = 0; k < m->npf * m->nf; k++)
+        if (m->tri_tag[k / m->npf] == PM_FACE_BASE || m->tri_tag[k / m->npf] == PM_FACE_TIP)
+            known[m->tri[k]] = 1;
+    for (int32_t k = 0; k < s.ns; k++)
+        PM_TRY(to_surface(m, &s, k, &samples, u, known, err));
+    PM_TRY(spread(m, known, u, err));
+    for (ptrdiff_t k = 0; k < 3 * m->nn; k++)
+        m->x[k] += u[k];
+    printf("%td\n", straighten(m));
+    PM_TRY(write_msh(m, (int)m->npe, path, err));
+done:
+    pm_surfaces_release(&s);
+    pm_samples_release(&samples);
+    pm_free(u);
+    pm_free(known);
     return status;
 }
 
@@ -243,12 +405,14 @@ int main(int argc, char **argv)
     enum pm_status status = PM_USAGE;
     const char *what = argc > 1 ? argv[1] : "";
 
-    if (argc == (strcmp(what, "sizes") == 0 ? 3 : 4))
+    if (argc == (strcmp(what, "sizes") == 0 ? 3 : strcmp(what, "moved") == 0 ? 5 : 4))
         status = pm_mesh_load(argv[2], 0, &m, &err);
     if (status == PM_OK && strcmp(what, "obj") == 0)
         status = obj(&m, argv[3], &err);
     else if (status == PM_OK && strcmp(what, "straight") == 0)
-        status = straight(&m, argv[3], &err);
+        status = write_msh(&m, 4, argv[3], &err);
+    else if (status == PM_OK && strcmp(what, "moved") == 0)
+        status = moved(&m, argv[3], argv[4], &err);
     else if (status == PM_OK && strcmp(what, "sizes") == 0)
         sizes(&m);
     if (status != PM_OK)

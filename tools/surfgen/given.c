@@ -199,16 +199,14 @@ done:
 
 /* Control points at `spacing` on the given surface: remeshed over the map that has all its nodes as
  * control points. */
-static enum pm_status spread(const struct given *g, double spacing, const int *mirror,
-                             struct pm_surface *s, struct pm_err *err)
+static enum pm_status spread(const struct given *g, double spacing, struct pm_surface *s,
+                             struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_surface dense = {.type = PM_SURFACE_SPHERE, .n = g->m.nn, .nt = g->m.nt};
     struct pm_patch p = {0};
     struct pm_remesh_opts o = {
         .size = spacing, .size_min = spacing, .crest = 1, .growth = 1, .sweeps = 12};
-
-    (void)mirror;
     struct pm_trimesh begin = {.nn = g->m.nn, .nt = g->m.nt};
 
     PM_TRY(PM_NEW(begin.tri, 3 * begin.nt, err));
@@ -242,7 +240,7 @@ enum pm_status pm_given_chamber(const struct pm_trimesh *m, double spacing, cons
     PM_TRY(pm_trimesh_refine(m, spacing / 2, &g.m, err));
     PM_TRY(PM_NEW(g.S, 3 * g.m.nn, err));
     PM_TRY(pm_parametrise_sphere(&g.m, mirror, g.S, err));
-    PM_TRY(spread(&g, spacing, mirror, s, err));
+    PM_TRY(spread(&g, spacing, s, err));
     PM_TRY(sample(&g, PM_SURFACE_SPHERE, err));
     PM_TRY(fit(&g, s, 0.1, NULL, misfit, err));
 done:
