@@ -200,6 +200,25 @@ static void check_subproblem(void)
         want[i] = s.radius * G[i] / mass[i / 3] / subproblem_dual_norm(&s, G);
     near_array("linear: the step is along M^-1 G", step, want, 3 * N, 5e-3);
     near_rel("linear: on the bound", subproblem_norm(&s, step), s.radius, 1e-9);
+    /* a point cut in two, each with half the surface and so half the gradient: all move as before
+     */
+    double mass2[N + 1], G2[3 * (N + 1)], step2[3 * (N + 1)] = {0};
+    struct subproblem two = s;
+    memcpy(mass2, mass, sizeof mass);
+    memcpy(G2, G, sizeof G);
+    mass2[5] = mass2[6] = mass[5] / 2;
+    for (int i = 15; i < 21; i++)
+        G2[i] = G[15 + i % 3] / 2;
+    two.N = N + 1;
+    two.mass = mass2;
+    two.gradient = G2;
+    b.mass = mass2;
+    b.N = N + 1;
+    ok(subproblem_solve(&two, step2, &err) == PM_OK, "more control points: solved");
+    near_array("more control points: the same step", step2, step, 3 * N, 5e-3);
+    near_array("more control points: of the new one too", &step2[18], &step[15], 3, 5e-3);
+    b.mass = mass;
+    b.N = N;
     /* inside the bounds: k M (step - to) = G */
     b.k = 30;
     for (int i = 0; i < 3 * N; i++) {
