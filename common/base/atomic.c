@@ -57,6 +57,32 @@ void pm_atomic_abort(struct pm_atomic *a)
     a->slot = -1;
 }
 
+enum pm_status pm_atomic_write(const char *target,
+                               enum pm_status (*write)(void *data, FILE *out, struct pm_err *err),
+                               void *data, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_atomic file = {.slot = -1};
+    FILE *out = NULL;
+    int failed;
+    PM_TRY(pm_atomic_begin(&file, target, err));
+    out = fopen(file.temporary, "wb");
+    if (out == NULL)
+        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", target, strerror(errno)));
+    PM_TRY(write(data, out, err));
+    failed = ferror(out);
+    failed |= fclose(out);
+    out = NULL;
+    if (failed)
+        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", target, strerror(errno)));
+    status = pm_atomic_commit(&file, err);
+done:
+    if (out != NULL)
+        fclose(out);
+    pm_atomic_abort(&file);
+    return status;
+}
+
 static void on_signal(int number)
 {
     for (int i = 0; i < SLOTS; i++)

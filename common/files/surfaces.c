@@ -186,6 +186,21 @@ done:
     return status;
 }
 
+enum pm_status pm_surface_new(int32_t type, ptrdiff_t n, ptrdiff_t nt, struct pm_surface *s,
+                              struct pm_err *err)
+{
+    enum pm_status status;
+    *s = (struct pm_surface){.type = type, .n = n, .nt = nt};
+    PM_TRY(PM_NEW(s->phi, 3 * n, err));
+    PM_TRY(PM_NEW(s->free, 3 * n, err));
+    PM_TRY(PM_NEW(s->Phi, 3 * n, err));
+    PM_TRY(PM_NEW(s->d0, n, err));
+    PM_TRY(PM_NEW(s->tri, 3 * nt, err));
+    memset(s->free, 1, 3 * (size_t)n);
+done:
+    return status;
+}
+
 enum pm_status pm_surface_copy(const struct pm_surface *a, struct pm_surface *b, struct pm_err *err)
 {
     enum pm_status status;

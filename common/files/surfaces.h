@@ -53,6 +53,9 @@ enum pm_status pm_surfaces_load(const char *path, struct pm_surfaces *s,
 enum pm_status pm_surfaces_write(struct pm_h5 *f, const struct pm_surfaces *s, struct pm_err *err);
 enum pm_status pm_surfaces_copy(const struct pm_surfaces *from, struct pm_surfaces *to,
                                 struct pm_err *err);
+/* Room for n control points, all free, and nt triangles; everything else is 0. */
+enum pm_status pm_surface_new(int32_t type, ptrdiff_t n, ptrdiff_t nt, struct pm_surface *s,
+                              struct pm_err *err);
 enum pm_status pm_surface_copy(const struct pm_surface *from, struct pm_surface *to,
                                struct pm_err *err);
 void pm_surface_release(struct pm_surface *s);

@@ -230,12 +230,7 @@ enum pm_status pm_symmetry_image(const struct pm_symmetry *y, ptrdiff_t g,
     double det = Q[0] * (Q[4] * Q[8] - Q[5] * Q[7]) - Q[1] * (Q[3] * Q[8] - Q[5] * Q[6]) +
                  Q[2] * (Q[3] * Q[7] - Q[4] * Q[6]);
 
-    *to = (struct pm_surface){.type = from->type, .n = from->n, .nt = from->nt};
-    PM_TRY(PM_NEW(to->phi, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->free, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->Phi, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->d0, to->n, err));
-    PM_TRY(PM_NEW(to->tri, 3 * to->nt, err));
+    PM_TRY(pm_surface_new(from->type, from->n, from->nt, to, err));
     for (ptrdiff_t i = 0; i < from->n; i++)
         transform(y, g, 0, 0, &from->Phi[3 * i], &to->Phi[3 * i]);
     pm_symmetry_points(y, g, from->n, from->phi, to->phi);

@@ -24,12 +24,10 @@ enum pm_status pm_tube_seed(ptrdiff_t nu, ptrdiff_t nv, struct pm_surface *s, st
 {
     enum pm_status status = PM_OK;
 
-    *s = (struct pm_surface){.type = PM_SURFACE_BSPLINE, .nu = nu, .nv = nv, .n = nu * nv};
-    PM_TRY(PM_NEW(s->phi, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->free, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->Phi, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->d0, s->n, err));
-    PM_TRY(PM_NEW(s->tri, 6 * nu * (nv - 1), err));
+    PM_TRY(pm_surface_new(PM_SURFACE_BSPLINE, nu * nv, 2 * nu * (nv - 1), s, err));
+    s->nu = nu;
+    s->nv = nv;
+    s->nt = 0; /* as they come */
     for (ptrdiff_t i = 0; i < s->n; i++) {
         ptrdiff_t b = i / nu;
         double t = TWO_PI * (double)(i % nu) / (double)nu, v = 0;

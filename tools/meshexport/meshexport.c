@@ -1,6 +1,5 @@
 #include "tools/meshexport/meshexport.h"
 
-#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -60,28 +59,9 @@ done:
     return status;
 }
 
-/* Whole or not at all. */
-static enum pm_status write_deck(const struct deck *d, const char *path, struct pm_err *err)
+static enum pm_status write_deck(void *data, FILE *out, struct pm_err *err)
 {
-    enum pm_status status;
-    struct pm_atomic file = {.slot = -1};
-    FILE *out = NULL;
-    PM_TRY(pm_atomic_begin(&file, path, err));
-    out = fopen(file.temporary, "wb");
-    if (out == NULL)
-        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", path, strerror(errno)));
-    PM_TRY(deck_write(d, out, err));
-    int failed = ferror(out);
-    failed |= fclose(out);
-    out = NULL;
-    if (failed)
-        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", path, strerror(errno)));
-    status = pm_atomic_commit(&file, err);
-done:
-    if (out != NULL)
-        fclose(out);
-    pm_atomic_abort(&file);
-    return status;
+    return deck_write(data, out, err);
 }
 
 static enum pm_status export_deck(const struct meshexport_opts *o, const struct pm_common *common,
@@ -98,11 +78,11 @@ static enum pm_status export_deck(const struct meshexport_opts *o, const struct 
     if (o->npressure > 0 && o->npressure != s.mesh.nc)
         PM_TRY(pm_fail(err, PM_USAGE, "option --pressure: %d values for %td chambers", o->npressure,
                        s.mesh.nc));
-    const struct deck d = {.mesh = &s.mesh,
-                           .pressure = o->npressure > 0 ? o->pressure : s.pressure,
-                           .steps = o->steps,
-                           .title = common->command};
-    PM_TRY(write_deck(&d, common->output, err));
+    struct deck d = {.mesh = &s.mesh,
+                     .pressure = o->npressure > 0 ? o->pressure : s.pressure,
+                     .steps = o->steps,
+                     .title = common->command};
+    PM_TRY(pm_atomic_write(common->output, write_deck, &d, err));
     pm_log(1, "%td nodes, %td elements %s, %td chambers", s.mesh.nn, s.mesh.ne,
            s.mesh.npe == 10 ? "C3D10" : "C3D4", s.mesh.nc);
 done:

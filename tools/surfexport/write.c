@@ -1,6 +1,5 @@
 #include "tools/surfexport/write.h"
 
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -152,33 +151,30 @@ static void write_msh(const struct skin *s, FILE *out)
     fprintf(out, "$EndElements\n");
 }
 
+struct job {
+    const struct skin *skin;
+    enum write_format format;
+    const char *name;
+};
+
+static enum pm_status write_job(void *data, FILE *out, struct pm_err *err)
+{
+    const struct job *j = data;
+    (void)err;
+    if (j->format == WRITE_STL)
+        write_stl(j->skin, j->name, out);
+    else if (j->format == WRITE_STL_ASCII)
+        write_stl_ascii(j->skin, j->name, out);
+    else if (j->format == WRITE_OBJ)
+        write_obj(j->skin, j->name, out);
+    else
+        write_msh(j->skin, out);
+    return PM_OK;
+}
+
 enum pm_status write_triangles(const struct skin *s, enum write_format format, const char *name,
                                const char *path, struct pm_err *err)
 {
-    enum pm_status status;
-    struct pm_atomic file = {.slot = -1};
-    FILE *out = NULL;
-    PM_TRY(pm_atomic_begin(&file, path, err));
-    out = fopen(file.temporary, "wb");
-    if (out == NULL)
-        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", path, strerror(errno)));
-    if (format == WRITE_STL)
-        write_stl(s, name, out);
-    else if (format == WRITE_STL_ASCII)
-        write_stl_ascii(s, name, out);
-    else if (format == WRITE_OBJ)
-        write_obj(s, name, out);
-    else
-        write_msh(s, out);
-    int failed = ferror(out);
-    failed |= fclose(out);
-    out = NULL;
-    if (failed)
-        PM_TRY(pm_fail(err, PM_SYSTEM, "cannot write '%s': %s", path, strerror(errno)));
-    status = pm_atomic_commit(&file, err);
-done:
-    if (out != NULL)
-        fclose(out);
-    pm_atomic_abort(&file);
-    return status;
+    struct job job = {.skin = s, .format = format, .name = name};
+    return pm_atomic_write(path, write_job, &job, err);
 }

@@ -171,27 +171,13 @@ static void triangulate(struct pm_surface *s, const struct ring *ring, ptrdiff_t
         triangle(s, last->first + a, last->first + (a + 1) % last->n, s->n - 1);
 }
 
-static enum pm_status reserve(struct pm_surface *s, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-
-    PM_TRY(PM_NEW(s->phi, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->free, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->Phi, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->d0, s->n, err));
-    PM_TRY(PM_NEW(s->tri, 6 * s->n, err));
-    memset(s->free, 1, 3 * (size_t)s->n);
-done:
-    return status;
-}
-
 enum pm_status pm_chamber_seed(const struct pm_chamber *c, const struct pm_profile *p,
                                ptrdiff_t multiple, struct pm_surface *s, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct density d = {0};
     struct ring *ring = NULL;
-    ptrdiff_t nrings;
+    ptrdiff_t nrings, n;
     double wanted;
 
     memset(s, 0, sizeof *s);
@@ -202,13 +188,13 @@ enum pm_status pm_chamber_seed(const struct pm_chamber *c, const struct pm_profi
                        MAX_POINTS, c->spacing));
     nrings = 2 * (ptrdiff_t)fmax(1, round(wanted / 2)) - 1;
     PM_TRY(PM_NEW(ring, nrings, err));
-    s->type = PM_SURFACE_SPHERE;
-    s->n = plan(p, &d, multiple, nrings, ring);
-    if (s->n > MAX_POINTS || s->n <= 20)
+    n = plan(p, &d, multiple, nrings, ring);
+    if (n > MAX_POINTS || n <= 20)
         PM_TRY(pm_fail(err, PM_INPUT,
-                       "chamber has %td control points at spacing %g, expected 21 to %d", s->n,
+                       "chamber has %td control points at spacing %g, expected 21 to %d", n,
                        c->spacing, MAX_POINTS));
-    PM_TRY(reserve(s, err));
+    PM_TRY(pm_surface_new(PM_SURFACE_SPHERE, n, 2 * n - 4, s, err));
+    s->nt = 0; /* as they come */
     for (ptrdiff_t pole = 0; pole < 2; pole++) {
         double *x = &s->phi[pole * 3 * (s->n - 1)];
         pm_profile_around(p, pole ? (double)(p->n - 1) : 0, 0, x);

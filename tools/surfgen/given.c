@@ -115,20 +115,6 @@ done:
     return status;
 }
 
-static enum pm_status reserve(struct pm_surface *s, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-
-    PM_TRY(PM_NEW(s->phi, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->free, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->Phi, 3 * s->n, err));
-    PM_TRY(PM_NEW(s->d0, s->n, err));
-    PM_TRY(PM_NEW(s->tri, 3 * s->nt, err));
-    memset(s->free, 1, 3 * (size_t)s->n);
-done:
-    return status;
-}
-
 static int is_edge(const struct pm_trimesh *m, int32_t a, int32_t b)
 {
     for (ptrdiff_t k = 0; k < 3 * m->nt; k++)
@@ -218,8 +204,7 @@ static enum pm_status spread(const struct given *g, double spacing, struct pm_su
     PM_TRY(PM_NEW(dense.d0, dense.n, err));
     PM_TRY(pm_map_support(dense.n, dense.Phi, PM_MAP_NEIGHBOURS, dense.d0, err));
     PM_TRY(pm_remesh(&dense, 0, &o, &p, err));
-    *s = (struct pm_surface){.type = PM_SURFACE_SPHERE, .n = p.nn, .nt = p.nt};
-    PM_TRY(reserve(s, err));
+    PM_TRY(pm_surface_new(PM_SURFACE_SPHERE, p.nn, p.nt, s, err));
     memcpy(s->phi, p.x, 3 * (size_t)s->n * sizeof *s->phi);
     memcpy(s->Phi, p.S, 3 * (size_t)s->n * sizeof *s->Phi);
     memcpy(s->tri, p.tri, 3 * (size_t)s->nt * sizeof *s->tri);

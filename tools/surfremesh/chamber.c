@@ -266,13 +266,9 @@ static enum pm_status take(const struct pm_surface *from, const struct pm_patch 
     struct pm_map *map = NULL;
     struct pm_basis work = {0};
 
-    *to = (struct pm_surface){.type = PM_SURFACE_SPHERE, .n = p->nn, .nt = p->nt};
-    PM_TRY(PM_NEW(to->phi, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->free, 3 * to->n, err));
-    PM_TRY(PM_NEW(to->d0, to->n, err));
-    PM_TRY(pm_copy_array(&to->Phi, p->S, 3 * to->n, sizeof *p->S, err));
-    PM_TRY(pm_copy_array(&to->tri, p->tri, 3 * to->nt, sizeof *p->tri, err));
-    memset(to->free, 1, 3 * (size_t)to->n);
+    PM_TRY(pm_surface_new(PM_SURFACE_SPHERE, p->nn, p->nt, to, err));
+    memcpy(to->Phi, p->S, 3 * (size_t)to->n * sizeof *p->S);
+    memcpy(to->tri, p->tri, 3 * (size_t)to->nt * sizeof *p->tri);
     PM_TRY(pm_map_new(from, &map, err));
     for (ptrdiff_t i = 0; i < to->n; i++)
         PM_TRY(
