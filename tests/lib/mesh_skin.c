@@ -34,32 +34,6 @@ static void cross(const double *a, const double *b, double *c)
         c[i] = a[(i + 1) % 3] * b[(i + 2) % 3] - a[(i + 2) % 3] * b[(i + 1) % 3];
 }
 
-/* Area and flux of x / 3 of a boundary face; exact for straight ones, the flux for all. */
-static void face_sums(const struct pm_mesh *m, ptrdiff_t f, double *area, double *flux)
-{
-    double X[6][3];
-    for (int a = 0; a < 6; a++)
-        for (int i = 0; i < 3; i++) {
-            const int32_t *v = m->tri + m->npf * f;
-            const double *p = m->x + 3 * v[a % 3], *q = m->x + 3 * v[(a + 1) % 3];
-            X[a][i] = a < 3 ? p[i] : m->npf == 6 ? m->x[3 * v[a] + i] : (p[i] + q[i]) / 2;
-        }
-    *area = *flux = 0;
-    for (int q = 0; q < PM_TRI_POINTS; q++) {
-        double N[6], dN[12], x[3] = {0}, u[3] = {0}, v[3] = {0}, n[3];
-        pm_tri6_shape(pm_tri_xi[q], N, dN);
-        for (int a = 0; a < 6; a++)
-            for (int i = 0; i < 3; i++) {
-                x[i] += N[a] * X[a][i];
-                u[i] += dN[2 * a] * X[a][i];
-                v[i] += dN[2 * a + 1] * X[a][i];
-            }
-        cross(u, v, n);
-        *area += pm_tri_weight[q] * sqrt(dot(n, n));
-        *flux += pm_tri_weight[q] * dot(x, n) / 3;
-    }
-}
-
 /* Triangles `part` of face f: vertices (3). */
 static void part_of(const struct pm_mesh *m, ptrdiff_t f, int part, int32_t v[3])
 {
@@ -152,14 +126,14 @@ static enum pm_status obj(const struct pm_mesh *m, const char *prefix, struct pm
         height = fmax(height, m->x[3 * a + 2]);
     for (ptrdiff_t f = 0; f < m->nf; f++) {
         const double z = m->x[3 * m->tri[m->npf * f] + 2];
-        double area, flux;
+        double area = 0, moment[3] = {0};
         if (m->tri_tag[f] <= PM_FACE_SYM_X)
             PM_TRY(pm_fail(err, PM_INPUT, "found a symmetry plane, expected a whole body"));
         if (z < -1e-9 * height || (m->tri_tag[f] == PM_FACE_BASE && z > 1e-9 * height))
             PM_TRY(pm_fail(err, PM_INPUT, "found z = %g mm, expected the base in z = 0", z));
         if (m->tri_tag[f] == PM_FACE_TIP && z < (1 - 1e-9) * height)
             PM_TRY(pm_fail(err, PM_INPUT, "found the tip at z = %g mm, expected %g", z, height));
-        face_sums(m, f, &area, &flux);
+        const double flux = pm_quality_face(m, f, &area, moment);
         side += m->tri_tag[f] == PM_FACE_EXTERIOR ? area : 0;
         volume += m->tri_tag[f] <= 0 ? flux : 0;
     }
@@ -381,7 +355,7 @@ done:
 
 static void sizes(const struct pm_mesh *m)
 {
-    double edges = 0, volume = 0;
+    double edges = 0, volume = 0, area = 0, moment[3] = {0};
     for (ptrdiff_t e = 0; e < m->ne; e++)
         for (int k = 0; k < 6; k++) {
             const int32_t *v = m->tet + m->npe * e;
@@ -390,11 +364,8 @@ static void sizes(const struct pm_mesh *m)
                 d[i] = m->x[3 * v[pm_tet10_edge[k][0]] + i] - m->x[3 * v[pm_tet10_edge[k][1]] + i];
             edges += sqrt(dot(d, d));
         }
-    for (ptrdiff_t f = 0; f < m->nf; f++) {
-        double area, flux;
-        face_sums(m, f, &area, &flux);
-        volume += flux;
-    }
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        volume += pm_quality_face(m, f, &area, moment);
     printf("%td %.6g %.9g\n", m->ne, edges / (6 * (double)m->ne), volume);
 }
 

@@ -8,10 +8,10 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
-#include "common/mechanics/tet10.h"
 #include "tools/tetmesh/curve.h"
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/import_check.h"
+#include "tools/tetmesh/quality.h"
 #include "tools/tetmesh/volume_gmsh.h"
 
 enum { NO_TAG = INT32_MIN };
@@ -252,39 +252,14 @@ static enum pm_status tag_others(const struct importing *c, struct pm_err *err)
     return PM_OK;
 }
 
-/* Nodes of face f (6 x 3); a 3-node one gets the middles of its edges. */
-static void gather_face(const struct pm_mesh *m, ptrdiff_t f, double X[18])
-{
-    for (ptrdiff_t a = 0; a < m->npf; a++)
-        memcpy(X + 3 * a, m->x + 3 * (ptrdiff_t)m->tri[m->npf * f + a], 3 * sizeof *X);
-    for (int k = 0; k < 9 && m->npf == 3; k++)
-        X[9 + k] = (X[k] + X[(k + 3) % 9]) / 2;
-}
-
 /* Centroid of the tip of the whole body: that of the faces of the tip, moved to the symmetry
  * planes. */
 static void find_reference(struct pm_mesh *m)
 {
     double sum[3] = {0}, area = 0;
-    for (ptrdiff_t f = 0; f < m->nf; f++) {
-        for (int q = 0; q < PM_TRI_POINTS && m->tri_tag[f] == PM_FACE_TIP; q++) {
-            double X[18], N[6], dN[12], x[3] = {0}, u[3] = {0}, v[3] = {0};
-            gather_face(m, f, X);
-            pm_tri6_shape(pm_tri_xi[q], N, dN);
-            for (int a = 0; a < 6; a++)
-                for (int i = 0; i < 3; i++) {
-                    x[i] += N[a] * X[3 * a + i];
-                    u[i] += dN[2 * a] * X[3 * a + i];
-                    v[i] += dN[2 * a + 1] * X[3 * a + i];
-                }
-            const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                                 u[0] * v[1] - u[1] * v[0]};
-            const double w = pm_tri_weight[q] * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
-            area += w;
-            for (int i = 0; i < 3; i++)
-                sum[i] += w * x[i];
-        }
-    }
+    for (ptrdiff_t f = 0; f < m->nf; f++)
+        if (m->tri_tag[f] == PM_FACE_TIP)
+            pm_quality_face(m, f, &area, sum);
     for (int i = 0; i < 3; i++)
         m->reference_point[i] = area > 0 ? sum[i] / area : 0;
     for (ptrdiff_t f = 0; f < m->nf && area > 0; f++) {

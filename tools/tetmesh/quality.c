@@ -71,3 +71,37 @@ void pm_quality_gather(const struct pm_mesh *m, const double *x, ptrdiff_t e, do
         for (int i = 0; i < 3; i++)
             X[12 + 3 * k + i] = (X[3 * edge[k][0] + i] + X[3 * edge[k][1] + i]) / 2;
 }
+
+/* Nodes of face f (6 x 3); a 3-node one gets the middles of its edges. */
+static void gather_face(const struct pm_mesh *m, ptrdiff_t f, double X[18])
+{
+    for (ptrdiff_t a = 0; a < m->npf; a++)
+        memcpy(X + 3 * a, m->x + 3 * (ptrdiff_t)m->tri[m->npf * f + a], 3 * sizeof *X);
+    for (int k = 0; k < 9 && m->npf == 3; k++)
+        X[9 + k] = (X[k] + X[(k + 3) % 9]) / 2;
+}
+
+double pm_quality_face(const struct pm_mesh *m, ptrdiff_t f, double *area, double moment[3])
+{
+    double X[18], flux = 0;
+    gather_face(m, f, X);
+    for (int q = 0; q < PM_TRI_POINTS; q++) {
+        double N[6], dN[12], x[3] = {0}, u[3] = {0}, v[3] = {0};
+        pm_tri6_shape(pm_tri_xi[q], N, dN);
+        for (int a = 0; a < 6; a++)
+            for (int i = 0; i < 3; i++) {
+                x[i] += N[a] * X[3 * a + i];
+                u[i] += dN[2 * a] * X[3 * a + i];
+                v[i] += dN[2 * a + 1] * X[3 * a + i];
+            }
+        const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                             u[0] * v[1] - u[1] * v[0]};
+        const double w = pm_tri_weight[q] * sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+        *area += w;
+        for (int i = 0; i < 3; i++) {
+            moment[i] += w * x[i];
+            flux += pm_tri_weight[q] * n[i] * x[i] / 3;
+        }
+    }
+    return flux;
+}

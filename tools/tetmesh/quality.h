@@ -17,5 +17,8 @@ double pm_quality_mean_ratio(const double X[12]);
 /* Nodes of element e (10 x 3) at the nodal positions x; a 4-node one gets the middles of its edges.
  */
 void pm_quality_gather(const struct pm_mesh *m, const double *x, ptrdiff_t e, double X[30]);
+/* Adds area and first moment [mm2, mm3] of a boundary face, straight or curved, by the 6-point
+ * rule; returns its flux of x / 3: over a closed surface the volume inside [mm3]. */
+double pm_quality_face(const struct pm_mesh *m, ptrdiff_t f, double *area, double moment[3]);
 
 #endif
