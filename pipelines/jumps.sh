@@ -12,7 +12,7 @@ awk -F '\t' 'NR > 1 && $11 > 0 { print $1, before, $3, $11 } $2 == 1 { before = 
     iteration=$(printf 'it%03d' "$n") anew=$renewed
     if [ "$kind" -eq 2 ]; then
         "$MAKE" --no-print-directory RUN="$run" ITER="$iteration" "$run/$iteration/anew.h5" </dev/null
-        anew=$(item /measure/objective "$run/$iteration/anew.h5")
+        anew=$(item /measure/value "$run/$iteration/anew.h5")
     fi
     awk -v n="$n" -v a="$before" -v b="$anew" -v c="$renewed" 'BEGIN {
         printf "%9d %12.6g %12.6g %12.6g %+10.2f %+16.2f %+8.2f\n", n, a, b, c, 100 * (b / a - 1), 100 * (c / b - 1), 100 * (c / a - 1) }'
