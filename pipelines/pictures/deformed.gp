@@ -8,7 +8,8 @@ stats one using 1:3 nooutput name 'A'
 stats one using 4:2 nooutput name 'U'
 stats both using 1:3 nooutput name 'B'
 stats both using 4:2 nooutput name 'V'
-most = U_max_x > V_max_x ? U_max_x : V_max_x
+larger(a, b) = a > b ? a : b
+most = larger(U_max_x, V_max_x)
 # Blue to red by displacement, brightness by light; the palette of the scale is the same curve.
 hue(u) = 0.62 * (1 - u / most)
 colour(u, light) = hsv2rgb(hue(u), 0.62, 0.62 + 0.36 * light)
@@ -22,9 +23,10 @@ set xyplane at 0
 set view 74,14,1.75,1
 set view equal xyz
 set pm3d depthorder
-set xrange [(A_min_x < B_min_x ? A_min_x : B_min_x):(A_max_x > B_max_x ? A_max_x : B_max_x)]
-set yrange [-U_max_y:U_max_y]
-set zrange [0:(A_max_y > B_max_y ? A_max_y : B_max_y)]
+widest = larger(larger(U_max_y, -U_min_y), larger(V_max_y, -V_min_y))
+set xrange [-larger(-A_min_x, -B_min_x):larger(A_max_x, B_max_x)]
+set yrange [-widest:widest]
+set zrange [-larger(0, larger(-A_min_y, -B_min_y)):larger(A_max_y, B_max_y)]
 set tmargin at screen 0.9
 set bmargin at screen 0.03
 unset colorbox
