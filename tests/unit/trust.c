@@ -180,8 +180,8 @@ static void project(void *context, double *v)
 static void check_subproblem(void)
 {
     enum { N = 6 };
-    double mass[N] = {0.1, 0.1, 0.3, 0.2, 0.2, 0.1}, to[3 * N] = {0}, G[3 * N], step[3 * N] = {0},
-           want[3 * N];
+    double mass[N] = {0.1, 0.1, 0.3, 0.2, 0.2, 0.1}, to[3 * (N + 1)] = {0}, G[3 * N],
+           step[3 * N] = {0}, want[3 * N];
     struct bowl b = {.N = N, .mass = mass, .to = to, .k = 0};
     struct subproblem s = {.N = N,
                            .gradient = G,
