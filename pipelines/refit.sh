@@ -74,11 +74,13 @@ for _ in 1 2 3; do
     awk -v a="$edge" -v b="$got" 'BEGIN { exit (a / b - 1) ^ 2 > 0.03 ^ 2 }' && break
     size=$(awk -v a="$edge" -v b="$got" -v s="$size" 'BEGIN { printf "%.4g", s * a / b }')
 done
-[ "$refused" -gt 0 ] || bodies="$bodies curved"
-if [ "$refused" -eq 0 ] && [ ${#linear[@]} -gt 0 ]; then
-    bodies='given moved straight curved'
-    "$LIB/mesh_skin" straight "$RUN/curved.h5" "$RUN/straight.msh"
-    quiet "$BIN/tetmesh" --import "$RUN/straight.msh" "${material[@]}" --promote --reference "0,0,$height" -o "$RUN/straight.h5"
+if [ "$refused" -eq 0 ]; then
+    if [ ${#linear[@]} -gt 0 ]; then
+        bodies="$bodies straight"
+        "$LIB/mesh_skin" straight "$RUN/curved.h5" "$RUN/straight.msh"
+        quiet "$BIN/tetmesh" --import "$RUN/straight.msh" "${material[@]}" --promote --reference "0,0,$height" -o "$RUN/straight.h5"
+    fi
+    bodies="$bodies curved"
 fi
 
 ratios=$(awk -v p="$pressures" -v mu="$mu" -v n="$chambers" 'BEGIN {

@@ -313,8 +313,10 @@ static ptrdiff_t straighten(struct pm_mesh *m)
                                 2;
             for (int k = 12; k < 30; k++)
                 m->x[3 * v[k / 3] + k % 3] = chord[k];
-            bad = bad || memcmp(chord, X, sizeof X) != 0;
-            count += memcmp(chord, X, sizeof X) != 0;
+            if (memcmp(chord, X, sizeof X) != 0) {
+                bad = 1;
+                count++;
+            }
         }
     }
     return count;
