@@ -101,14 +101,14 @@ $(VOLUMES): $D/volume-%.h5: $D/mesh.h5 | $(STATES)
 	@$(STAGE) 'volume $*' $(LAUNCH) $(BIN)/fesolve --form volume --load $(shell printf %d $$((10#$*))) $(addprefix --guess ,$(STATES)) $< -o $@
 $D/both.h5: $(STATES) $(VOLUMES)
 	@$(STAGE) wsint $(BIN)/wsint $(SIGN) $^ -o $@
-# The design before a renewal, meshed anew: what of the jump comes with the mesh, what with the control points.
-ANEW := $(POINTS:%=$D/anew-%.h5)
-$D/anew-mesh.h5: $(PREV)/step.h5
-	@$(STAGE) 'tetmesh anew' $(LAUNCH) $(BIN)/tetmesh $< -o $@
-$(ANEW): $D/anew-%.h5: $D/anew-mesh.h5
-	@$(STAGE) 'anew $*' $(LAUNCH) $(BIN)/fesolve --load $(shell printf %d $$((10#$*))) --guess $(LAST)/state-$*.h5 $< -o $@
-$D/anew.h5: $(ANEW)
-	@$(STAGE) 'wsint anew' $(BIN)/wsint $(SIGN) $^ -o $@
+# A renewed design on the mesh before it: what of the jump comes with the control points, what with the mesh.
+KEPT := $(POINTS:%=$D/kept-%.h5)
+$D/kept-mesh.h5: $D/surf.h5
+	@$(STAGE) 'tetmesh kept' $(LAUNCH) $(BIN)/tetmesh --record-failure --previous $(LAST)/mesh.h5 --keep-mesh $< -o $@
+$(KEPT): $D/kept-%.h5: $D/kept-mesh.h5
+	@$(STAGE) 'kept $*' $(LAUNCH) $(BIN)/fesolve --record-failure --load $(shell printf %d $$((10#$*))) --guess $(LAST)/state-$*.h5 $< -o $@
+$D/kept.h5: $(KEPT)
+	@$(STAGE) 'wsint kept' $(BIN)/wsint --record-failure $(SIGN) $^ -o $@
 comma := ,
 # From the least to the largest pressure of the box, the corners of which every interval has.
 PRESSURES = $(shell $(BIN)/wsint --boundary 1 $(RUN)/case.ini | tr ' \t' '\n\n' | sort -gu)

@@ -37,9 +37,15 @@ refused 4 "edges too long for what is wanted" "worn mesh: .* of its surfaces edg
     "$tetmesh" "$work/s.h5" --size 3 --previous "$work/m.h5" --keep-mesh -o "$out/x.h5"
 sed 's/rows = 14/rows = 16/' tests/data/tiny.ini >"$work/u.ini"
 check "another exterior" "$BIN/surfgen" "$work/u.ini" -o "$work/u.h5"
-expect 0 "another parametrisation" "$tetmesh" "$work/u.h5" --previous "$work/m.h5" -o "$work/p.h5"
-check "says so" grep -q "another parametrisation: meshing anew" "$work/err"
+expect 0 "other control points" "$tetmesh" "$work/u.h5" --previous "$work/m.h5" --keep-mesh -o "$work/p.h5" -v
+check "says so" grep -Eq "other control points: nodes up to 0\.[0-9]+ mm off, 0 mid-side nodes damped" "$work/err"
 check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/u.h5" 0.06
+check "the elements are the same" cmp <(h5dump -d /mesh/tet "$work/m.h5" | tail -n +2) <(h5dump -d /mesh/tet "$work/p.h5" | tail -n +2)
+sed 's/radius = 6/radius = 4/' "$work/u.ini" >"$work/v.ini"
+check "another form" "$BIN/surfgen" "$work/v.ini" -o "$work/v.h5"
+expect 0 "control points far off" "$tetmesh" "$work/v.h5" --previous "$work/m.h5" -o "$work/p.h5"
+check "says so" grep -Eq "another parametrisation and lies up to [0-9.]+ mm off, expected [0-9.]+: meshing anew" "$work/err"
+check "it keeps its promises" "$LIB/check_mesh" "$work/p.h5" "$work/v.h5" 0.06
 
 # surfaces that cannot be meshed: without symmetry, one chamber moves
 { sed 's/^group = .*/group = none/' tests/data/tiny.ini; sed -n '/chamber1/,/^$/p' tests/data/tiny.ini | sed 's/chamber1/chamber2/; s/= 9, 0/= -9, 0/'; } >"$work/two.ini"

@@ -14,7 +14,10 @@
 #include "tools/surfremesh/spacing.h"
 
 static const double DISTANCE_MAX = 0.3, VOLUME_OFF = 0.005, CV_GOOD = 0.2, UNEVEN_GOOD = 2;
-static const double CURVATURE_OVER = 0.25, WALL_UNDER = 0.02, MEAN_OFF = 1.0 / 250;
+static const double CURVATURE_OVER = 0.25, WALL_UNDER = 0.02;
+/* Of wall_min: exterior, chambers. Seen of one exterior: 0.006 mm changed a measure by 0.53 %,
+ * 0.003 mm by 0.15 %. */
+static const double MEAN_OFF[2] = {1.0 / 500, 1.0 / 250};
 
 /* The first objection stays. */
 __attribute__((format(printf, 2, 3))) static void object(struct rebuild *r, const char *format, ...)
@@ -30,15 +33,15 @@ __attribute__((format(printf, 2, 3))) static void object(struct rebuild *r, cons
 }
 
 /* Unasked renewals may not move the measure: it goes with the cube of the walls and more. */
-static double mean_max(const struct rebuild *r)
+static double mean_max(const struct rebuild *r, ptrdiff_t k)
 {
     const int asked = r->o->spacing > 0 || r->o->points > 0;
-    return asked ? DISTANCE_MAX : MEAN_OFF * r->from->pcase.wall_min;
+    return asked ? DISTANCE_MAX : MEAN_OFF[k > 0] * r->from->pcase.wall_min;
 }
 
 int rebuild_misses(const struct rebuild *r, ptrdiff_t k)
 {
-    return !(r->report->max[k] <= DISTANCE_MAX && r->report->mean[k] <= mean_max(r) &&
+    return !(r->report->max[k] <= DISTANCE_MAX && r->report->mean[k] <= mean_max(r, k) &&
              fabs(r->report->volume_ratio[k] - 1) <= VOLUME_OFF);
 }
 
@@ -73,11 +76,11 @@ static void judge(struct rebuild *r, ptrdiff_t k)
     if (!drifts && !(p->max[k] <= DISTANCE_MAX))
         object(r, "surface %td: new surface lies up to %.3f mm off the old one, expected <= %g", k,
                p->max[k], DISTANCE_MAX);
-    if (!drifts && !(p->mean[k] <= mean_max(r)))
+    if (!drifts && !(p->mean[k] <= mean_max(r, k)))
         object(
             r,
             "surface %td: new surface lies %.4f mm off the old one in the mean, expected <= %.4f",
-            k, p->mean[k], mean_max(r));
+            k, p->mean[k], mean_max(r, k));
     if (!drifts && !(fabs(p->volume_ratio[k] - 1) <= VOLUME_OFF))
         object(r, "surface %td: enclosed volume changes by %.2f %%, expected <= %g %%", k,
                100 * (p->volume_ratio[k] - 1), 100 * VOLUME_OFF);

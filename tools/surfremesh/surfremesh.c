@@ -111,7 +111,7 @@ static enum pm_status refuse(struct rebuild *r, enum pm_status status, const str
  * form. The reason says why it is not acceptable. */
 static enum pm_status renew(struct rebuild *r, ptrdiff_t k, struct pm_err *err)
 {
-    enum { ATTEMPTS = 5 };
+    enum { ATTEMPTS = 6 };
     enum pm_status status;
     const struct surfremesh_report *p = r->report;
 

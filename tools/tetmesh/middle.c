@@ -42,11 +42,10 @@ static unsigned rims_of(const struct pm_middles *m, int32_t type, const struct p
     return rim;
 }
 
-/* Parameter of the foot of the middle of a chord: Newton for r_a . (r - middle) = 0 from the middle
- * of the parameters; on a rim v stays, on a mirror plane the steps are in it by symmetry but for
- * rounding. Steps are at most a quarter of the chord. */
-static enum pm_status foot(struct pm_middles *m, ptrdiff_t k, unsigned rims, const double mid[3],
-                           double chord, double S[3], struct pm_err *err)
+/* Newton for r_a . (r - p) = 0; on a rim v stays, on a mirror plane the steps are in it by symmetry
+ * but for rounding. */
+enum pm_status pm_middle_foot(struct pm_middles *m, ptrdiff_t k, unsigned rims, const double p[3],
+                              double chord, double S[3], struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     const struct pm_surface *s = &m->s->s[k];
@@ -56,8 +55,8 @@ static enum pm_status foot(struct pm_middles *m, ptrdiff_t k, unsigned rims, con
         double r[3], r_a[6], r_ab[9], f[2] = {0}, g[3] = {0}, h[3], d[2];
         PM_TRY(pm_map_point(m->map[k], s->phi, S, &m->basis, r, r_a, r_ab, err));
         for (int i = 0; i < 3; i++) {
-            f[0] -= r_a[i] * (r[i] - mid[i]);
-            f[1] -= r_a[3 + i] * (r[i] - mid[i]);
+            f[0] -= r_a[i] * (r[i] - p[i]);
+            f[1] -= r_a[3 + i] * (r[i] - p[i]);
             g[0] += r_a[i] * r_a[i];
             g[1] += r_a[i] * r_a[3 + i];
             g[2] += r_a[3 + i] * r_a[3 + i];
@@ -65,7 +64,7 @@ static enum pm_status foot(struct pm_middles *m, ptrdiff_t k, unsigned rims, con
         for (int j = 0; j < 3; j++) {
             h[j] = g[j];
             for (int i = 0; i < 3; i++)
-                h[j] += r_ab[3 * j + i] * (r[i] - mid[i]);
+                h[j] += r_ab[3 * j + i] * (r[i] - p[i]);
         }
         /* Gauss-Newton where the Hessian is not positive */
         if (!(h[0] > 0.1 * g[0]) ||
@@ -102,7 +101,7 @@ enum pm_status pm_middle_find(struct pm_middles *m, ptrdiff_t k, const struct pm
         chord += (e->x[0][i] - e->x[1][i]) * (e->x[0][i] - e->x[1][i]);
     }
     pm_map_middle(s->type, e->S[0], e->S[1], S);
-    PM_TRY(foot(m, k, rims, mid, sqrt(chord), S, err));
+    PM_TRY(pm_middle_foot(m, k, rims, mid, sqrt(chord), S, err));
     PM_TRY(pm_map_point(m->map[k], s->phi, S, &m->basis, x, NULL, NULL, err));
     for (int j = 0; j < 2; j++)
         if (rims & pm_rim_plane(s->type, j))

@@ -6,6 +6,7 @@
 #include "common/base/log.h"
 #include "common/base/memory.h"
 #include "common/mechanics/extension.h"
+#include "tools/tetmesh/carry.h"
 #include "tools/tetmesh/coarse.h"
 #include "tools/tetmesh/curve.h"
 #include "tools/tetmesh/redamp.h"
@@ -21,6 +22,8 @@ static const double coarser = 0.03;
 /* A mesh below min_scaled is damped to this, so that it bears a further step. */
 static const double redamp_scaled = 0.15;
 static const double relocated_mean_ratio = 0.15;
+/* Of the wanted edge: what the nodes may lie off surfaces of other control points. */
+static const double FAR = 0.25;
 
 struct quality {
     double scaled, mean_ratio;
@@ -128,28 +131,45 @@ done:
 }
 
 /* May m be moved to the surfaces at all? */
-static enum pm_status fits(struct pm_reuse *r, const struct pm_mesh *m, int *same,
+static enum pm_status fits(struct pm_reuse *r, const struct pm_mesh *m, int *fit,
                            struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_err broken = {.status = PM_OK};
-    *same = 0;
-    if (m->failure[0] != '\0') {
+    *fit = 0;
+    if (m->failure[0] != '\0')
         snprintf(r->why, PM_REUSE_WHY, "it records a failure");
-    } else if (m->N == 0) {
+    else if (m->N == 0)
         PM_TRY(pm_fail(err, PM_INPUT,
                        "cannot use '%s': an imported mesh has no control points, expected one made "
                        "from surfaces",
                        r->path));
-    } else if (pm_mirrors_of(m) != r->planes) {
+    else if (pm_mirrors_of(m) != r->planes)
         snprintf(r->why, PM_REUSE_WHY, "it is of another part of the body");
-    } else if (pm_mirrors_check(r->s, r->y, &broken) != PM_OK) {
+    else if (m->nc != r->s->ns - 1)
+        snprintf(r->why, PM_REUSE_WHY, "it has %td chambers, the surfaces %td", m->nc,
+                 r->s->ns - 1);
+    else if (pm_mirrors_check(r->s, r->y, &broken) != PM_OK)
         snprintf(r->why, PM_REUSE_WHY, "%.200s", broken.text);
-    } else {
-        PM_TRY(pm_weights_same(m, r->s, same, err));
-        if (!*same)
-            snprintf(r->why, PM_REUSE_WHY, "it has another parametrisation");
-    }
+    else
+        *fit = 1;
+done:
+    return status;
+}
+
+/* To other control points, *near where the nodes are next to these surfaces. */
+static enum pm_status carry(struct pm_reuse *r, struct pm_mesh *m, int *near, struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_carry_report report;
+    PM_TRY(pm_mesh_carry(r->s, r->y->planes, m, &report, err));
+    pm_log(1, "other control points: nodes up to %.3g mm off, %td mid-side nodes damped",
+           report.furthest, report.damped);
+    *near = report.furthest <= FAR * r->size;
+    if (!*near)
+        snprintf(r->why, PM_REUSE_WHY,
+                 "it has another parametrisation and lies up to %.3g mm off, expected %.3g",
+                 report.furthest, FAR * r->size);
 done:
     return status;
 }
@@ -157,16 +177,21 @@ done:
 enum pm_status pm_reuse_mesh(struct pm_reuse *r, struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    int same;
+    int fit, same = 0;
     PM_TRY(pm_mesh_load(r->path, 1, m, err));
-    PM_TRY(fits(r, m, &same, err));
-    for (int anew = 0; anew < 2 && same && !r->good; anew++) {
-        if (anew) { /* damping has changed it */
-            pm_mesh_release(m);
-            PM_TRY(pm_mesh_load(r->path, 1, m, err));
-        }
-        PM_TRY(morph(r, anew, m, err));
+    PM_TRY(fits(r, m, &fit, err));
+    if (fit)
+        PM_TRY(pm_weights_same(m, r->s, &same, err));
+    if (fit && same)
+        PM_TRY(morph(r, 0, m, err));
+    if (fit && same && !r->good) { /* damping has changed it */
+        pm_mesh_release(m);
+        PM_TRY(pm_mesh_load(r->path, 1, m, err));
     }
+    if (fit && !same)
+        PM_TRY(carry(r, m, &fit, err));
+    if (fit && !r->good)
+        PM_TRY(morph(r, 1, m, err));
     if (r->good)
         PM_TRY(look_at_edges(r, m, err));
 done:

@@ -19,9 +19,10 @@ struct pm_reuse {
     char why[PM_REUSE_WHY]; /* not */
 };
 
-/* Moves it, as generated or, where its elements do not bear that, from its present state. r->good:
- * m holds it, else m is empty and r->why says why: it is of other surfaces, its elements do not
- * bear the motion, or its edges are too long for the new shape (coarse.h). */
+/* Moves it, as generated or, where its elements do not bear that or the surfaces have other control
+ * points (carry.h), from its present state. r->good: m holds it, else m is empty and r->why says
+ * why: it is of other surfaces, its elements do not bear the motion, or its edges are too long for
+ * the new shape (coarse.h). */
 enum pm_status pm_reuse_mesh(struct pm_reuse *r, struct pm_mesh *m, struct pm_err *err);
 
 #endif
