@@ -7,6 +7,7 @@
 #include "common/base/memory.h"
 #include "common/files/state.h"
 #include "common/mechanics/relax.h"
+#include "common/mechanics/restore.h"
 #include "common/mechanics/transfer.h"
 #include "common/mechanics/warp.h"
 
@@ -85,19 +86,47 @@ done:
     return status;
 }
 
-/* The guess of another mesh at the loads of the guess. */
-static enum pm_status transfer(const struct guess *g, const struct pm_model *m, struct pm_config *c,
-                               int *good, struct pm_solve_report *r, struct pm_err *err)
+/* The guess of another mesh, with the law of m, at the loads of the guess. */
+static enum pm_status fit(struct guess *g, struct pm_model *m, struct pm_config *c,
+                          struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_model *old = NULL;
+    struct pm_config before = {0};
+    struct pm_warp *w = NULL;
+    pm_lanes *gradient = NULL;
+
+    PM_TRY(pm_model_new(&g->from.mesh, g->from.element, &old, err));
+    old->law = m->law;
+    old->blend = pm_element_blend(old->space.type, &old->law);
+    PM_TRY(pm_config_new(old, &before, err));
+    PM_TRY(pm_config_restore(old, &g->from, &before, err));
+    PM_TRY(PM_NEW_LANES(gradient, 9 * m->nb * m->space.type->nq, err));
+    PM_TRY(pm_model_mixed_new(m, &g->mixed, err));
+    PM_TRY(pm_transfer(old, &before, m, gradient, g->mixed, err));
+    memcpy(c->U, g->from.U, sizeof c->U);
+    PM_TRY(pm_warp_new(m, &w, err));
+    PM_TRY(pm_warp_fit(w, gradient, c, err));
+done:
+    pm_model_free(old);
+    pm_config_release(&before);
+    pm_warp_free(w);
+    pm_free(gradient);
+    return status;
+}
+
+/* The same, relaxed; *good = 0 where that fails. The counts of r grow by its own. */
+static enum pm_status transfer(struct guess *g, struct pm_model *m, struct pm_config *c, int *good,
+                               struct pm_solve_report *r, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_err why = {0};
 
-    PM_TRY(pm_transfer(&g->from.mesh, g->from.u, m->mesh, c->u, err));
-    memcpy(c->U, g->from.U, sizeof c->U);
+    PM_TRY(fit(g, m, c, err));
     pm_model_place_tip(m, c);
     status = pm_relax(m, g->at, c, &why);
-    r->factorisations += status == PM_OK;
     *good = status == PM_OK;
+    r->factorisations += *good;
     r->backoffs += !*good;
     if (status == PM_SYSTEM)
         *err = why;
@@ -133,16 +162,6 @@ done:
     return status;
 }
 
-/* c = the guess carried to the mesh of m. The same connectivity: pm_warp_carry, with g->mixed;
- * another one: transfer.h and relax.h, no g->mixed. *good = 0 where that fails. The counts of r
- * grow by theirs. */
-static enum pm_status bring(struct guess *g, struct pm_model *m, struct pm_config *c, int *good,
-                            struct pm_solve_report *r, struct pm_err *err)
-{
-    *good = 1;
-    return g->same_mesh ? carry(g, m, c, err) : transfer(g, m, c, good, r, err);
-}
-
 enum pm_status pm_start(struct pm_model *m, const double *p, const struct pm_solve_options *o,
                         const char *const *paths, struct pm_config *c, double *volume, double *f,
                         struct pm_solve_report *r, struct pm_err *err)
@@ -153,8 +172,9 @@ enum pm_status pm_start(struct pm_model *m, const double *p, const struct pm_sol
     int good = 0;
 
     PM_TRY(choose(paths, m->mesh, p, &g, err));
+    good = g.usable;
     if (g.usable)
-        PM_TRY(bring(&g, m, c, &good, &spent, err));
+        PM_TRY(g.same_mesh ? carry(&g, m, c, err) : transfer(&g, m, c, &good, &spent, err));
     status = PM_NUMERIC;
     if (good) {
         struct pm_err why = {0};

@@ -1,5 +1,7 @@
 #include "common/mechanics/transfer.h"
 
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 #include <math.h>
 #include <string.h>
 
@@ -63,7 +65,7 @@ struct place {
     const struct pm_mesh *m;
     const double *X;
     int32_t e;
-    double xi[3], offset[3]; /* X - Y */
+    double xi[3];
 };
 
 /* The point of element e by Newton's method, moved to the element's side: barycentric coordinates
@@ -103,7 +105,6 @@ static double find_in(void *data, int32_t e, double best)
         return best;
     p->e = e;
     memcpy(p->xi, xi, sizeof xi);
-    memcpy(p->offset, r, sizeof r);
     return distance;
 }
 
@@ -173,51 +174,145 @@ static unsigned fold(const struct planes *p, const double *X, double Y[3])
     return turned;
 }
 
-/* u + (F - I) offset at the place. */
-static void carry(const struct place *p, const double *u, double out[3])
+/* G = du/dX at the place. */
+static void gradient_at(const struct place *p, const double *u, double G[9])
 {
-    double y[3], D[9], B[9], d[3];
+    double y[3], D[9], B[9], C[9];
     field_at(p->m, p->e, p->m->x, p->xi, y, D);
-    field_at(p->m, p->e, u, p->xi, out, B);
-    if (!solve3(D, p->offset, d))
-        return;
+    field_at(p->m, p->e, u, p->xi, y, B);
+    const double det = pm_cofactor(D, C); /* D^-1_jk = C_kj / det */
     for (int i = 0; i < 3; i++)
-        out[i] += B[3 * i] * d[0] + B[3 * i + 1] * d[1] + B[3 * i + 2] * d[2];
+        for (int k = 0; k < 3; k++)
+            G[3 * i + k] =
+                (B[3 * i] * C[3 * k] + B[3 * i + 1] * C[3 * k + 1] + B[3 * i + 2] * C[3 * k + 2]) /
+                det;
 }
 
-static void hold(const struct pm_mesh *m, double *u)
+/* The linear function of xi nearest to values at the points of the quadrature is a sum of them with
+ * weights weight_q = sum_k f_k(xi) c_kq, f = 1, xi: c = (sum_q f f^T)^-1 f_q. */
+struct linear {
+    int nq;
+    double c[4][PM_MOST_POINTS];
+};
+
+static double monomial(int k, const double xi[3])
 {
-    for (ptrdiff_t f = 0; f < m->nf; f++)
-        for (ptrdiff_t a = 0; a < m->npf; a++) {
-            double *v = u + 3 * (ptrdiff_t)m->tri[m->npf * f + a];
-            const int axis = PM_FACE_SYM_X - m->tri_tag[f];
-            if (m->tri_tag[f] == PM_FACE_BASE)
-                memset(v, 0, 3 * sizeof *v);
-            else if (axis >= 0 && axis <= 2)
-                v[axis] = 0;
-        }
+    return k == 0 ? 1 : xi[k - 1];
 }
 
-enum pm_status pm_transfer(const struct pm_mesh *from, const double *u, const struct pm_mesh *to,
-                           double *u_to, struct pm_err *err)
+static enum pm_status linear_init(const struct pm_element_type *t, struct linear *l,
+                                  struct pm_err *err)
+{
+    enum pm_status status = PM_OK;
+    double N[16] = {0};
+    gsl_matrix_view A = gsl_matrix_view_array(N, 4, 4);
+    *l = (struct linear){.nq = t->nq};
+    for (int q = 0; q < t->nq; q++) {
+        l->c[0][q] = 1.0 / t->nq;
+        for (int k = 0; k < 16; k++)
+            N[k] += monomial(k / 4, t->xi[q]) * monomial(k % 4, t->xi[q]);
+    }
+    if (t->nq < 4)
+        return PM_OK; /* the mean */
+    if (gsl_linalg_cholesky_decomp1(&A.matrix) != GSL_SUCCESS)
+        PM_TRY(pm_fail(err, PM_NUMERIC, "the points of element %s lie in a plane", t->name));
+    for (int q = 0; q < t->nq; q++) {
+        double f[4];
+        gsl_vector_view v = gsl_vector_view_array(f, 4);
+        for (int k = 0; k < 4; k++)
+            f[k] = monomial(k, t->xi[q]);
+        gsl_linalg_cholesky_svx(&A.matrix, &v.vector);
+        for (int k = 0; k < 4; k++)
+            l->c[k][q] = f[k];
+    }
+done:
+    return status;
+}
+
+static void linear_weights(const struct linear *l, const double xi[3], double *weight)
+{
+    for (int q = 0; q < l->nq; q++) {
+        weight[q] = 0;
+        for (int k = 0; k < 4; k++)
+            weight[q] += monomial(k, xi) * l->c[k][q];
+    }
+}
+
+struct source {
+    const struct pm_model *m;
+    const struct pm_config *c;
+    pm_lanes *mixed;
+    struct pm_boxes *boxes;
+    struct planes planes;
+    struct linear linear;
+};
+
+/* Gradient and mixed of the source at X. */
+static void look(const struct source *s, const double *X, double G[9], double S[PM_MIXED])
+{
+    double Y[3], weight[PM_MOST_POINTS];
+    const unsigned turned = fold(&s->planes, X, Y);
+    const ptrdiff_t nq = s->linear.nq;
+    struct place p = {.m = s->m->mesh, .X = Y};
+    pm_boxes_nearest(s->boxes, Y, HUGE_VAL, find_in, &p);
+    gradient_at(&p, s->c->u, G);
+    linear_weights(&s->linear, p.xi, weight);
+    for (int n = 0; n < PM_MIXED; n++) {
+        S[n] = 0;
+        for (ptrdiff_t q = 0; q < nq; q++)
+            S[n] +=
+                weight[q] * s->mixed[PM_MIXED * (nq * (p.e / PM_LANES) + q) + n][p.e % PM_LANES];
+    }
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            if ((turned >> i ^ turned >> j) & 1)
+                G[3 * i + j] = -G[3 * i + j];
+    for (int n = 3; n < 6; n++) /* 12 23 13 */
+        if ((turned >> n % 3 ^ turned >> (n + 1) % 3) & 1)
+            S[1 + n] = -S[1 + n];
+}
+
+/* Place of point q of element e. */
+static void place_of(const struct pm_model *m, ptrdiff_t e, int q, double X[3])
+{
+    const struct pm_mesh *mesh = m->mesh;
+    const ptrdiff_t npe = m->space.type->npe < 10 ? m->space.type->npe : 10;
+    double N[10], dN[30];
+    shape(npe, m->space.type->xi[q], N, dN);
+    memset(X, 0, 3 * sizeof *X);
+    for (ptrdiff_t a = 0; a < npe; a++)
+        for (int i = 0; i < 3; i++)
+            X[i] += N[a] * mesh->x[3 * (ptrdiff_t)mesh->tet[mesh->npe * e + a] + i];
+}
+
+enum pm_status pm_transfer(const struct pm_model *from, const struct pm_config *c,
+                           const struct pm_model *to, pm_lanes *gradient, pm_lanes *mixed,
+                           struct pm_err *err)
 {
     enum pm_status status;
-    struct pm_boxes *boxes = NULL;
-    struct planes planes;
-    PM_TRY(new_boxes(from, &boxes, err));
-    find_planes(from, &planes);
-    for (ptrdiff_t a = 0; a < to->nn; a++) {
-        double X[3];
-        const unsigned turned = fold(&planes, to->x + 3 * a, X);
-        struct place p = {.m = from, .X = X};
-        pm_boxes_nearest(boxes, X, HUGE_VAL, find_in, &p);
-        carry(&p, u, u_to + 3 * a);
-        for (int i = 0; i < 3; i++)
-            if (turned >> i & 1)
-                u_to[3 * a + i] = -u_to[3 * a + i];
+    struct source s = {.m = from, .c = c};
+    const ptrdiff_t nq = to->space.type->nq, ne = to->space.ne;
+    double *still = NULL;
+
+    PM_TRY(linear_init(from->space.type, &s.linear, err));
+    PM_TRY(pm_model_mixed_new(from, &s.mixed, err));
+    PM_TRY(PM_NEW(still, 3 * from->nn, err));
+    pm_model_mixed(from, c, still, s.mixed);
+    PM_TRY(new_boxes(from->mesh, &s.boxes, err));
+    find_planes(from->mesh, &s.planes);
+    for (ptrdiff_t k = 0; k < PM_LANES * to->nb * nq; k++) { /* lanes behind the last: the last */
+        const ptrdiff_t e = k / nq, b = nq * (e / PM_LANES) + k % nq;
+        double X[3], G[9], S[PM_MIXED];
+        place_of(to, e < ne ? e : ne - 1, (int)(k % nq), X);
+        look(&s, X, G, S);
+        for (int i = 0; i < 9; i++)
+            gradient[9 * b + i][e % PM_LANES] = G[i];
+        for (int n = 0; n < PM_MIXED; n++)
+            mixed[PM_MIXED * b + n][e % PM_LANES] = S[n];
     }
-    hold(to, u_to);
 done:
-    pm_boxes_free(boxes);
+    pm_boxes_free(s.boxes);
+    pm_free(s.mixed);
+    pm_free(still);
     return status;
 }

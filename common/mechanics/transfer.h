@@ -2,15 +2,15 @@
 #ifndef PM_TRANSFER_H
 #define PM_TRANSFER_H
 
-#include "common/files/mesh.h"
+#include "common/mechanics/model.h"
 
-/* u_to(X) = u(Y) + (F - I)(X - Y) at every node X of `to`: Y is X itself where an element of `from`
- * holds it, else a point near X in the element nearest to it, F = I + du/dX there. So a node
- * outside goes where the deformation beside it takes it, and F changes only by its own gradient.
- * What `from` has behind its symmetry planes is its image. Nodes of the base stay, those of
- * symmetry planes stay in them. u (nn of from x 3), u_to (nn of to
- * x 3) [mm], distinct. About nn log ne. */
-enum pm_status pm_transfer(const struct pm_mesh *from, const double *u, const struct pm_mesh *to,
-                           double *u_to, struct pm_err *err);
+/* At every point of the elements of `to` what `from` has there at c: displacement gradients (nb x
+ * points x 9, du_i/dX_j in row i) for pm_warp_fit, and pressures and stresses (nb x points x
+ * PM_MIXED), in each element the linear functions nearest to those at its own points. Outside,
+ * of the element nearest to the place. Bubbles of `from` are not seen in the gradients. What `from`
+ * has behind its symmetry planes is its image. About points log ne. */
+enum pm_status pm_transfer(const struct pm_model *from, const struct pm_config *c,
+                           const struct pm_model *to, pm_lanes *gradient, pm_lanes *mixed,
+                           struct pm_err *err);
 
 #endif

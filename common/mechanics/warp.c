@@ -467,3 +467,23 @@ enum pm_status pm_warp_carry(struct pm_warp *w, const double *X, const double *u
     pm_cost_add(&w->m->cost.warp, start);
     return status;
 }
+
+enum pm_status pm_warp_fit(struct pm_warp *w, const pm_lanes *gradient, struct pm_config *to,
+                           struct pm_err *err)
+{
+    clock_t start = clock();
+    const struct pm_model *m = w->m;
+    const ptrdiff_t nq = m->space.type->nq;
+    memset(w->b, 0, 3 * (size_t)m->nn * sizeof *w->b);
+    for (ptrdiff_t batch = 0; batch < m->nb; batch++) {
+        struct pm_element el = pm_model_batch(m, batch);
+        pm_lanes f[VALUES];
+        memset(f, 0, sizeof f);
+        for (ptrdiff_t q = 0; q < nq; q++)
+            add_target(&el, (int)q, gradient + 9 * (nq * batch + q), f);
+        scatter(w, batch, f);
+    }
+    const enum pm_status status = reconstruct(w, to, err);
+    pm_cost_add(&w->m->cost.warp, start);
+    return status;
+}

@@ -21,6 +21,10 @@ enum pm_status pm_warp_move(struct pm_warp *w, const struct pm_config *c, const 
  * as pm_model_mixed. PM_INPUT where an element of X is inverted. */
 enum pm_status pm_warp_carry(struct pm_warp *w, const double *X, const double *u,
                              struct pm_config *to, pm_lanes *mixed, struct pm_err *err);
+/* to = the deformation whose displacement gradients come nearest to the given at the points of the
+ * elements (nb x points x 9); to->U as in pm_warp_carry. */
+enum pm_status pm_warp_fit(struct pm_warp *w, const pm_lanes *gradient, struct pm_config *to,
+                           struct pm_err *err);
 void pm_warp_free(struct pm_warp *w);
 
 #endif
