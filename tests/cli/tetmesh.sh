@@ -14,6 +14,11 @@ check "it keeps its promises" "$LIB/check_mesh" "$work/m.h5" "$work/s.h5" 0.06
 expect 0 "finer mesh" "$tetmesh" "$work/s.h5" --size 3 -o "$work/fine.h5" -v
 check "it keeps its promises" "$LIB/check_mesh" "$work/fine.h5" "$work/s.h5" 0.005
 check "-v tells nodes, tetrahedra, unknowns" grep -Eq '[0-9]+ nodes, [0-9]+ tetrahedra, [0-9]+ unknowns' "$work/err"
+expect 0 "finer crests" "$tetmesh" "$work/s.h5" --crest 0.8 -o "$work/crest.h5"
+check "it keeps its promises" "$LIB/check_mesh" "$work/crest.h5" "$work/s.h5" 0.06
+check "more tetrahedra" test "$(h5dump -H -d /mesh/tet "$work/crest.h5" | sed -n 's/.*SIMPLE { ( \([0-9]*\),.*/\1/p')" -gt \
+    "$(h5dump -H -d /mesh/tet "$work/m.h5" | sed -n 's/.*SIMPLE { ( \([0-9]*\),.*/\1/p')"
+refused 2 "no crest" "option --crest: found 0, expected a number > 0" "$tetmesh" "$work/s.h5" --crest 0 -o "$out/x.h5"
 cp "$work/m.h5" "$work/first.h5"
 expect 0 "again" "$tetmesh" "$work/s.h5" -o "$work/m.h5"
 check "equal input, equal bytes" cmp "$work/m.h5" "$work/first.h5"

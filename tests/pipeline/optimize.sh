@@ -90,6 +90,10 @@ for kind in 1 2; do
 done
 check "made for that" test -e "$work/slow/it003/kept.h5"
 
+# The last design on two meshes: crests resolved otherwise change the mesh, the measure by what a coarse one is worth.
+expect 0 "meshes" make -s B="$BUILD" meshes RUN="$work/first" SIZES='8 8/0.8'
+check "two rows" awk -F '|' 'NR > 2 { n++; t[n] = $4; m[n] = $7 + 0 } END { print; exit !(n == 2 && t[2] > t[1] && m[1] > 0 && m[2] > 0.8 * m[1] && m[2] < 1.2 * m[1]) }' "$work/out"
+
 # wsint takes every point of a Gauss set once, of one design.
 states=("$work"/first/it000/state-0?.h5)
 refused 3 "a missing point" "no state at point 3 of the boundary form" "$BIN/wsint" "${states[@]:0:3}" -o "$work/output/x.h5"

@@ -4,6 +4,7 @@
 
 static const struct pm_option options[] = {
     {"size", 's', "MM", "wanted edge length (default: of the case)"},
+    {"crest", 'c', "R", "edges over the radius of curvature, at most (default: of the case)"},
     {"layers", 'l', "N", "edges through a wall, at least (default: of the case)"},
     {"previous", 'p', "MESH.h5", "morph this mesh while its elements bear it"},
     {"keep-mesh", 'k', NULL, "with --previous: fail where its elements do not bear it"},
@@ -70,6 +71,7 @@ static enum pm_status option(void *data, const char *name, const char *value, st
         const char **text;
         int *flag;
     } simple[] = {{"size", &o->size, NULL, NULL},
+                  {"crest", &o->crest, NULL, NULL},
                   {"timeout", &o->timeout, NULL, NULL},
                   {"mu", &o->mu, NULL, NULL},
                   {"previous", NULL, &o->previous, NULL},

@@ -251,6 +251,7 @@ static enum pm_status mesh_surfaces(const struct tetmesh_opts *o, const char *pa
     enum pm_status status = PM_OK;
     struct pm_surfaces s = {0};
     PM_TRY(pm_surfaces_load(path, &s, err));
+    s.pcase.mesh_crest = o->crest > 0 ? o->crest : s.pcase.mesh_crest;
     PM_TRY(make_or_record(o, &s, m, err));
     pm_case_release(&m->pcase);
     PM_TRY(pm_case_copy(&s.pcase, &m->pcase, err));
@@ -267,12 +268,12 @@ enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_commo
                           (o->material.law != NULL || o->material.n > 0) + (o->mu > 0);
     if ((o->import != NULL) == (common->noperands == 1))
         return pm_fail(err, PM_USAGE, "expected either SURF.h5 or --import FILE.msh");
-    if (o->import != NULL && (o->size > 0 || o->layers >= 0 || o->timeout > 0 ||
+    if (o->import != NULL && (o->size > 0 || o->crest > 0 || o->layers >= 0 || o->timeout > 0 ||
                               o->previous != NULL || o->record_failure || o->whole))
-        return pm_fail(
-            err, PM_USAGE,
-            "--size, --layers, --timeout, --previous, --record-failure and --symmetry none do not "
-            "go with --import");
+        return pm_fail(err, PM_USAGE,
+                       "--size, --crest, --layers, --timeout, --previous, --record-failure and "
+                       "--symmetry none do not "
+                       "go with --import");
     if (o->import == NULL && (o->promote || o->have_reference || o->case_file != NULL ||
                               materials > 0 || o->material.kappa > 0))
         return pm_fail(err, PM_USAGE,

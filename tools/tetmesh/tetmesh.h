@@ -7,6 +7,7 @@
 
 struct tetmesh_opts {
     double size;          /* wanted edge length [mm], 0: of the case */
+    double crest;         /* edges over the radius of curvature, 0: of the case */
     long layers;          /* elements through a wall, 0: any, -1: of the case */
     double timeout;       /* [s], 0: none */
     const char *previous; /* mesh to morph, or NULL */
