@@ -162,7 +162,17 @@ static enum pm_status carry(struct pm_reuse *r, struct pm_mesh *m, int *near, st
 {
     enum pm_status status;
     struct pm_carry_report report;
-    PM_TRY(pm_mesh_carry(r->s, r->y->planes, m, &report, err));
+    struct pm_err bare = {.status = PM_OK};
+    *near = 0;
+    status = pm_mesh_carry(r->s, r->y->planes, m, &report, &bare);
+    if (status == PM_NUMERIC) { /* a place that no control point covers */
+        snprintf(r->why, PM_REUSE_WHY, "%.200s", bare.text);
+        return PM_OK;
+    }
+    if (status != PM_OK) {
+        *err = bare;
+        return status;
+    }
     pm_log(1, "other control points: nodes up to %.3g mm off, %td mid-side nodes damped",
            report.furthest, report.damped);
     *near = report.furthest <= FAR * r->size;
@@ -170,8 +180,7 @@ static enum pm_status carry(struct pm_reuse *r, struct pm_mesh *m, int *near, st
         snprintf(r->why, PM_REUSE_WHY,
                  "it has another parametrisation and lies up to %.3g mm off, expected %.3g",
                  report.furthest, FAR * r->size);
-done:
-    return status;
+    return PM_OK;
 }
 
 enum pm_status pm_reuse_mesh(struct pm_reuse *r, struct pm_mesh *m, struct pm_err *err)
