@@ -169,7 +169,7 @@ enum pm_status pm_start(struct pm_model *m, const double *p, const struct pm_sol
     enum pm_status status;
     struct pm_solve_report spent = {0};
     struct guess g = {.usable = 0};
-    int good = 0;
+    int good;
 
     PM_TRY(choose(paths, m->mesh, p, &g, err));
     good = g.usable;

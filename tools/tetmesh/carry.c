@@ -16,11 +16,10 @@ struct carrying {
     const struct pm_surfaces *s;
     struct pm_mesh *m;
     struct pm_middles middles;
-    int32_t *ends;   /* of the edge of a mid-side node on a surface, -1 of others (nn x 2) */
-    double *S;       /* new parameters (nn x 3) */
-    double *off;     /* way from a node to its foot (nn) [mm] */
-    double *t;       /* (nn) */
-    double furthest; /* of a vertex [mm] */
+    int32_t *ends; /* of the edge of a mid-side node on a surface, -1 of others (nn x 2) */
+    double *S;     /* new parameters (nn x 3) */
+    double *off;   /* way from a node to its foot (nn) [mm] */
+    double *t;     /* (nn) */
 };
 
 static void release(struct carrying *c)
@@ -94,14 +93,15 @@ done:
 }
 
 /* Feet of the vertices on surface k, from the nearest of its samples. */
-static enum pm_status find_vertices(struct carrying *c, const struct pm_samples *samples,
-                                    const double *x, ptrdiff_t k, struct pm_err *err)
+static enum pm_status find_vertices(struct carrying *c, const struct pm_cloud *nodes,
+                                    const struct pm_samples *samples, const double *x, ptrdiff_t k,
+                                    struct pm_err *err)
 {
     enum pm_status status;
     const struct pm_mesh *m = c->m;
     const ptrdiff_t first = samples->first[k];
     const struct pm_look look = {.cutoff = INFINITY};
-    struct pm_cloud *from = NULL, *to = NULL;
+    struct pm_cloud *to = NULL;
     unsigned char *wanted = NULL;
     int32_t *found = NULL;
     double *far = NULL, r[3];
@@ -111,15 +111,13 @@ static enum pm_status find_vertices(struct carrying *c, const struct pm_samples 
     PM_TRY(PM_NEW(far, m->nn, err));
     for (ptrdiff_t a = 0; a < m->nn; a++)
         wanted[a] = m->surface[a] == k && c->ends[2 * a] < 0;
-    PM_TRY(pm_cloud_new(m->nn, m->x, NULL, &from, err));
     PM_TRY(pm_cloud_new(samples->first[k + 1] - first, x + 3 * first, NULL, &to, err));
-    pm_cloud_look(from, wanted, to, &look, found, far);
+    pm_cloud_look(nodes, wanted, to, &look, found, far);
     for (ptrdiff_t a = 0; a < m->nn; a++)
         if (wanted[a])
             PM_TRY(
                 find_foot(c, a, m->pcase.mesh_size, samples->S + 3 * (first + found[a]), r, err));
 done:
-    pm_cloud_free(from);
     pm_cloud_free(to);
     pm_free(wanted);
     pm_free(found);
@@ -131,6 +129,7 @@ static enum pm_status find_all_vertices(struct carrying *c, struct pm_err *err)
 {
     enum pm_status status;
     struct pm_samples samples = {0};
+    struct pm_cloud *nodes = NULL;
     double *phi = NULL, *x = NULL;
 
     PM_TRY(pm_samples_new(c->s, HUGE_VAL, 2, &samples, err));
@@ -138,17 +137,20 @@ static enum pm_status find_all_vertices(struct carrying *c, struct pm_err *err)
     PM_TRY(PM_NEW(x, 3 * samples.n, err));
     pm_surfaces_gather(c->s, phi);
     pm_samples_all(&samples, phi, x, NULL);
+    PM_TRY(pm_cloud_new(c->m->nn, c->m->x, NULL, &nodes, err));
     for (ptrdiff_t k = 0; k < c->s->ns; k++)
-        PM_TRY(find_vertices(c, &samples, x, k, err));
+        PM_TRY(find_vertices(c, nodes, &samples, x, k, err));
 done:
     pm_samples_release(&samples);
+    pm_cloud_free(nodes);
     pm_free(phi);
     pm_free(x);
     return status;
 }
 
-/* After the vertices. */
-static enum pm_status find_middle(struct carrying *c, ptrdiff_t a, struct pm_err *err)
+/* After the vertices, of which none lies further off than `furthest` mm. */
+static enum pm_status find_middle(struct carrying *c, ptrdiff_t a, double furthest,
+                                  struct pm_err *err)
 {
     enum pm_status status;
     const int32_t type = c->s->s[c->m->surface[a]].type, *v = c->ends + 2 * a;
@@ -157,7 +159,7 @@ static enum pm_status find_middle(struct carrying *c, ptrdiff_t a, struct pm_err
 
     pm_map_middle(type, c->S + 3 * v[0], c->S + 3 * v[1], S);
     PM_TRY(find_foot(c, a, distance(xa, xb), S, r, err));
-    if (c->off[a] <= c->furthest)
+    if (c->off[a] <= furthest)
         return PM_OK;
     for (int i = 0; i < 3; i++) {
         const double middle = (xa[i] + xb[i]) / 2;
@@ -176,14 +178,11 @@ static enum pm_status weigh(struct carrying *c, struct pm_err *err)
     struct pm_weights w = {0};
     double x[3];
 
+    memcpy(m->S, c->S, (size_t)(3 * m->nn) * sizeof *m->S);
     PM_TRY(pm_weights_init(&w, c->s, m->nn, err));
     for (ptrdiff_t a = 0; a < m->nn; a++) {
-        const int32_t k = m->surface[a], *v = c->ends + 2 * a;
-        if (k >= 0)
-            PM_TRY(pm_weights_add(&w, c->middles.map[k], k, c->S + 3 * a, c->t[a], err));
-        for (int j = 0; j < 2 && k >= 0 && c->t[a] < 1; j++)
-            PM_TRY(pm_weights_add(&w, c->middles.map[m->surface[v[j]]], m->surface[v[j]],
-                                  c->S + 3 * v[j], (1 - c->t[a]) / 2, err));
+        if (m->surface[a] >= 0)
+            PM_TRY(pm_weights_add_node(&w, c->middles.map, m, a, c->ends + 2 * a, c->t[a], err));
         PM_TRY(pm_weights_close_row(&w, x, err));
     }
     pm_free(m->wptr);
@@ -191,7 +190,6 @@ static enum pm_status weigh(struct carrying *c, struct pm_err *err)
     pm_free(m->wval);
     pm_weights_finish(&w, m);
     m->N = c->s->offset[c->s->ns];
-    memcpy(m->S, c->S, (size_t)(3 * m->nn) * sizeof *m->S);
 done:
     pm_weights_release(&w);
     return status;
@@ -208,11 +206,10 @@ enum pm_status pm_mesh_carry(const struct pm_surfaces *s, unsigned planes, struc
     PM_TRY(find_all_vertices(&c, err));
     for (ptrdiff_t a = 0; a < m->nn; a++)
         r->furthest = fmax(r->furthest, c.off[a]);
-    c.furthest = r->furthest;
     m->max_damping = 0;
     for (ptrdiff_t a = 0; a < m->nn; a++)
         if (c.ends[2 * a] >= 0) {
-            PM_TRY(find_middle(&c, a, err));
+            PM_TRY(find_middle(&c, a, r->furthest, err));
             m->max_damping = fmax(m->max_damping, 1 - c.t[a]);
             r->damped += c.t[a] < 1;
         }

@@ -258,17 +258,10 @@ static enum pm_status weigh(struct curving *c, struct pm_err *err)
     m->N = c->s->offset[c->s->ns];
     PM_TRY(pm_weights_init(&w, c->s, m->nn, err));
     for (ptrdiff_t n = 0; n < m->nn; n++) {
-        if (n < c->nv && m->surface[n] >= 0) {
-            PM_TRY(pm_weights_add(&w, c->middles->map[m->surface[n]], m->surface[n], m->S + 3 * n,
-                                  1, err));
-        } else if (m->surface[n] >= 0) {
-            const int32_t ends[2] = {c->edges.low[n - c->nv], c->edges.high[n - c->nv]};
-            PM_TRY(pm_weights_add(&w, c->middles->map[m->surface[n]], m->surface[n], m->S + 3 * n,
-                                  c->t[n], err));
-            for (int k = 0; k < 2 && c->t[n] < 1; k++)
-                PM_TRY(pm_weights_add(&w, c->middles->map[m->surface[ends[k]]], m->surface[ends[k]],
-                                      m->S + 3 * ends[k], (1 - c->t[n]) / 2, err));
-        }
+        const ptrdiff_t e = n - c->nv;
+        const int32_t ends[2] = {e < 0 ? -1 : c->edges.low[e], e < 0 ? -1 : c->edges.high[e]};
+        if (m->surface[n] >= 0)
+            PM_TRY(pm_weights_add_node(&w, c->middles->map, m, n, ends, e < 0 ? 1 : c->t[n], err));
         PM_TRY(pm_weights_close_row(&w, m->x + 3 * n, err));
     }
     pm_weights_finish(&w, m);

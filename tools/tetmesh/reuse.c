@@ -186,19 +186,20 @@ static enum pm_status carry(struct pm_reuse *r, struct pm_mesh *m, int *near, st
 enum pm_status pm_reuse_mesh(struct pm_reuse *r, struct pm_mesh *m, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
-    int fit, same = 0;
+    int fit, same;
     PM_TRY(pm_mesh_load(r->path, 1, m, err));
     PM_TRY(fits(r, m, &fit, err));
-    if (fit)
-        PM_TRY(pm_weights_same(m, r->s, &same, err));
-    if (fit && same)
+    if (!fit)
+        goto done;
+    PM_TRY(pm_weights_same(m, r->s, &same, err));
+    if (same)
         PM_TRY(morph(r, 0, m, err));
-    if (fit && same && !r->good) { /* damping has changed it */
+    else
+        PM_TRY(carry(r, m, &fit, err));
+    if (same && !r->good) { /* damping has changed it */
         pm_mesh_release(m);
         PM_TRY(pm_mesh_load(r->path, 1, m, err));
     }
-    if (fit && !same)
-        PM_TRY(carry(r, m, &fit, err));
     if (fit && !r->good)
         PM_TRY(morph(r, 1, m, err));
     if (r->good)

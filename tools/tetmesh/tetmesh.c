@@ -272,8 +272,7 @@ enum pm_status tetmesh_check(const struct tetmesh_opts *o, const struct pm_commo
                               o->previous != NULL || o->record_failure || o->whole))
         return pm_fail(err, PM_USAGE,
                        "--size, --crest, --layers, --timeout, --previous, --record-failure and "
-                       "--symmetry none do not "
-                       "go with --import");
+                       "--symmetry none do not go with --import");
     if (o->import == NULL && (o->promote || o->have_reference || o->case_file != NULL ||
                               materials > 0 || o->material.kappa > 0))
         return pm_fail(err, PM_USAGE,

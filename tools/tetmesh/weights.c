@@ -49,6 +49,19 @@ enum pm_status pm_weights_add(struct pm_weights *w, const struct pm_map *map, in
     return status;
 }
 
+enum pm_status pm_weights_add_node(struct pm_weights *w, struct pm_map *const *map,
+                                   const struct pm_mesh *m, ptrdiff_t a, const int32_t ends[2],
+                                   double t, struct pm_err *err)
+{
+    int32_t k = m->surface[a];
+    enum pm_status status = pm_weights_add(w, map[k], k, m->S + 3 * a, t, err);
+    for (int j = 0; j < 2 && t < 1 && status == PM_OK; j++) {
+        k = m->surface[ends[j]];
+        status = pm_weights_add(w, map[k], k, m->S + 3 * ends[j], (1 - t) / 2, err);
+    }
+    return status;
+}
+
 static int ascending(const void *a, const void *b)
 {
     const int32_t p = *(const int32_t *)a, q = *(const int32_t *)b;

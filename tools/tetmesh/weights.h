@@ -25,6 +25,11 @@ void pm_weights_release(struct pm_weights *w);
 /* Adds factor times the weights of surface k at S to the open row. */
 enum pm_status pm_weights_add(struct pm_weights *w, const struct pm_map *map, int32_t k,
                               const double S[3], double factor, struct pm_err *err);
+/* Adds those of node a of m, on a surface at its S: t times its own and (1 - t)/2 times those of
+ * the ends of its edge, which are not looked at where t is 1. map: of all surfaces. */
+enum pm_status pm_weights_add_node(struct pm_weights *w, struct pm_map *const *map,
+                                   const struct pm_mesh *m, ptrdiff_t a, const int32_t ends[2],
+                                   double t, struct pm_err *err);
 /* Closes the row, columns ascending; if it is not empty x (3) = row times phi. */
 enum pm_status pm_weights_close_row(struct pm_weights *w, double *x, struct pm_err *err);
 /* Hands the rows over to m (wptr, wcol, wval, nw). */
