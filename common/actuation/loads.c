@@ -9,7 +9,7 @@
 #include "common/actuation/weight.h"
 #include "common/base/memory.h"
 
-enum { MAX_POINTS = 100000 };
+enum { MAX_POINTS = 100000, MANY_CHAMBERS = 4, MAX_GUARDS = PM_MAX_CHAMBERS + 1 };
 
 /* One point of a full set in integers: place 1..m of each axis, 0 = pmin, m + 1 = pmax. */
 struct point {
@@ -193,39 +193,44 @@ static struct pm_load make_load(const struct pm_case *c, const struct point *q, 
     return l;
 }
 
-/* Chamber `alone`, or all (-1), at pmax. */
-static struct pm_load guard(const struct pm_case *c, enum pm_form form, ptrdiff_t alone)
+/* Marks the images of the corner with the chambers `on` (bits) at pmax as seen; returns how many.
+ */
+static int take_corners(const struct pm_case *c, unsigned on, unsigned char *seen)
 {
-    struct pm_load l = {.face = form == PM_FORM_BOUNDARY ? 0 : -1, .sign = 1, .multiplicity = 1};
+    int size = 0;
 
-    for (ptrdiff_t r = 0; r < c->nchambers; r++)
-        l.p[r] = alone < 0 || r == alone ? c->pmax : c->pmin;
-    return l;
+    for (ptrdiff_t g = 0; g < c->symmetry.nops && (g == 0 || !c->full_set); g++) {
+        unsigned image = 0;
+        if (g > 0 && !pm_load_symmetry(c, g))
+            continue;
+        for (ptrdiff_t r = 0; r < c->nchambers; r++)
+            image |= (on >> r & 1) << c->symmetry.chamber[g][r];
+        size += !seen[image];
+        seen[image] = 1;
+    }
+    return size;
 }
 
 /* The guards of the case, behind the points; returns their number. */
 static ptrdiff_t add_guards(const struct pm_case *c, enum pm_form form, struct pm_load *set)
 {
-    unsigned char seen[PM_MAX_CHAMBERS] = {0};
+    const unsigned all = (1U << c->nchambers) - 1;
+    unsigned char seen[1 << PM_MAX_CHAMBERS] = {0};
     ptrdiff_t n = 0;
 
-    if (form != c->form)
+    if (form != c->form || !(c->amplification_max > 0 || c->gap_min > 0))
         return 0;
-    for (ptrdiff_t r = 0; r < c->nchambers && c->nchambers > 1 && c->gap_min > 0; r++) {
-        if (seen[r])
+    for (unsigned on = c->gap_min > 0 ? 1 : all; on <= all; on++) {
+        const int alone = (on & (on - 1)) == 0;
+        if (seen[on] || (c->nchambers >= MANY_CHAMBERS && !alone && on != all))
             continue;
-        set[n] = guard(c, form, r);
-        for (ptrdiff_t g = 1; g < c->symmetry.nops && !c->full_set; g++) {
-            const int to = c->symmetry.chamber[g][r];
-            if (pm_load_symmetry(c, g) && to != r && !seen[to]) {
-                seen[to] = 1;
-                set[n].multiplicity++;
-            }
-        }
-        n++;
+        struct pm_load *l = set + n++;
+        *l = (struct pm_load){.face = form == PM_FORM_BOUNDARY ? 0 : -1,
+                              .sign = 1,
+                              .multiplicity = take_corners(c, on, seen)};
+        for (ptrdiff_t r = 0; r < c->nchambers; r++)
+            l->p[r] = on >> r & 1 ? c->pmax : c->pmin;
     }
-    if (c->amplification_max > 0 || c->gap_min > 0)
-        set[n++] = guard(c, form, -1);
     return n;
 }
 
@@ -249,7 +254,7 @@ enum pm_status pm_load_set(const struct pm_case *c, enum pm_form form, struct pm
     if (rule == NULL)
         PM_TRY(pm_fail(err, PM_SYSTEM, "out of memory"));
     PM_TRY(PM_NEW(seen, size, err));
-    PM_TRY(PM_NEW(set, size + c->nchambers + 1, err));
+    PM_TRY(PM_NEW(set, size + MAX_GUARDS, err));
     for (ptrdiff_t i = 0; i < size; i++) {
         if (seen[i])
             continue;

@@ -14,9 +14,10 @@
  * manifold measure is even under all. A weight must be kept, too. c->full_set: none is used.
  *
  * The form of the case ends with guards, points without weight that no other one sees. Where
- * gap_min is set: each chamber alone at pmax, where a robot bends most and comes closest to itself
- * (one of every orbit). Where that or amplification_max is set, last: all pressures at pmax, where
- * a robot loses its stability first. */
+ * gap_min is set: the corners of the box, every chamber at pmin or pmax, where a robot comes
+ * closest to itself (one of every orbit; of more than three chambers each one alone). Where that or
+ * amplification_max is set, last: all pressures at pmax, where a robot loses its stability first.
+ */
 #ifndef PM_LOADS_H
 #define PM_LOADS_H
 

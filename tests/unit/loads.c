@@ -152,7 +152,35 @@ static void check_solid_angle(void)
     pm_case_release(&faces);
 }
 
-/* The form of the case ends with each chamber alone and all at pmax, without weight. */
+/* Chambers at pmax and multiplicity of the guards of three chambers under c3: one, two, all. */
+static void check_corners(void)
+{
+    struct pm_case c = {0};
+    struct pm_load *loads = NULL;
+    ptrdiff_t n = 0;
+
+    if (actuated_case(&c, actuated_three, "c3 mirror-y", "3T", 2, &err) != PM_OK)
+        ok(0, "%s", err.text);
+    c.gap_min = 1;
+    ok(pm_load_set(&c, PM_FORM_BOUNDARY, &loads, &n, &err) == PM_OK && n == 6 + 3,
+       "%td points and guards", n);
+    for (int k = 1; k <= 3 && n == 9; k++) {
+        const struct pm_load *l = loads + 5 + k;
+        int high = 0;
+        for (int r = 0; r < 3; r++)
+            high += l->p[r] == c.pmax;
+        ok(l->weight == 0 && high == k && l->multiplicity == (k == 3 ? 1 : 3),
+           "%d chambers at pmax, for %d", high, l->multiplicity);
+    }
+    pm_free(loads);
+    c.full_set = 1;
+    ok(pm_load_set(&c, PM_FORM_BOUNDARY, &loads, &n, &err) == PM_OK && n == 24 + 7,
+       "%td points and guards of the full set", n);
+    pm_free(loads);
+    pm_case_release(&c);
+}
+
+/* The form of the case ends with the corners of the box, without weight. */
 static void check_guard(void)
 {
     struct pm_case c = {0};
@@ -224,5 +252,6 @@ int main(void)
        "a huge set is refused");
     pm_case_release(&c);
     check_guard();
+    check_corners();
     return tap_done();
 }
