@@ -23,12 +23,12 @@ march() {
     "$BIN/trstep" --history "$dir/step.h5" >"$dir/history.tsv"
 }
 
-# held NAME: every trial of the march is a robot with walls above 98 % of wall_min, curvature below 105 % of
-# curvature_max and symmetry to 1e-12 mm.
+# held NAME [CURVATURE]: every trial of the march is a robot with walls above 98 % of wall_min, curvature below CURVATURE
+# (1.05) times curvature_max and symmetry to 1e-12 mm.
 held() {
-    awk -F '\t' '{ wall = NR == 1 || $3 < wall ? $3 : wall; cap = NR == 1 || $4 < cap ? $4 : cap; bend = $5 > bend ? $5 : bend
+    awk -v most="${2:-1.05}" -F '\t' '{ wall = NR == 1 || $3 < wall ? $3 : wall; cap = NR == 1 || $4 < cap ? $4 : cap; bend = $5 > bend ? $5 : bend
             defect = $6 + 0 > defect + 0 ? $6 : defect; fault = $8 != "-" ? $8 : fault }
         END { defect += 0; print NR, "trials: least wall", wall, "cap", cap, "largest curvature", bend, "defect", defect, fault
-            exit !(wall >= 0.98 && cap >= 0.98 && bend <= 1.05 && defect < 1e-12 && fault == "") }' "$work/march/rows.tsv" >"$work/held"
+            exit !(wall >= 0.98 && cap >= 0.98 && bend <= most && defect < 1e-12 && fault == "") }' "$work/march/rows.tsv" >"$work/held"
     result $? "$1: $(cat "$work/held")"
 }

@@ -14,7 +14,7 @@
 #include "tools/surfremesh/spacing.h"
 
 static const double DISTANCE_MAX = 0.3, VOLUME_OFF = 0.005, CV_GOOD = 0.2, UNEVEN_GOOD = 2;
-static const double CURVATURE_OVER = 0.25, WALL_UNDER = 0.02;
+static const double CURVATURE_OVER = 0.25, WALL_UNDER = 0.015;
 /* Of wall_min: exterior, chambers. Seen of one exterior: 0.006 mm changed a measure by 0.53 %,
  * 0.003 mm by 0.15 %. */
 static const double MEAN_OFF[2] = {1.0 / 500, 1.0 / 250};
