@@ -22,6 +22,9 @@ static const double path_tolerance = 1e-1, polished = 1e-3;
  * the limit is half of what was refused. */
 static const double long_residual = 3.0;
 
+/* Tangents of a guess that need not be definite: its way is no path of equilibria. */
+enum { SETTLES = 3 };
+
 /* Pressures from (1 - lambda) + to lambda (nc) [MPa], and the derivatives of the path by lambda at
  * its base. */
 struct path {
@@ -225,8 +228,10 @@ static enum pm_status start_from_guess(struct pm_newton *s, const struct pm_gues
         memcpy(s->mixed, guess->mixed,
                (size_t)(PM_MIXED * s->m->nb * s->m->space.type->nq) * sizeof *s->mixed);
     pm_model_place_tip(s->m, c); /* on this mesh */
+    s->settles = SETTLES;
     PM_TRY(pm_newton_solve(s, c, same ? s->o->tolerance : path_tolerance, guess->mixed != NULL,
                            reached, err));
+    s->settles = 0;
     if (*reached && !same)
         PM_TRY(follow(s, &path, c, reached, err));
     s->r->warm = *reached;

@@ -2,6 +2,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
@@ -105,6 +106,31 @@ done:
     return status;
 }
 
+/* Correction at c into s->dq by the stiffness that its material has without stress, and without the
+ * pressures: definite where the exact one is not, for the stresses of a guess are wrong. */
+static enum pm_status settle(struct pm_newton *s, const struct pm_config *c, int *definite,
+                             struct pm_err *err)
+{
+    enum pm_status status;
+    struct pm_model *m = s->m;
+    pm_lanes *stress = NULL;
+    double *none = NULL;
+    PM_TRY(pm_model_mixed_new(m, &stress, err));
+    PM_TRY(PM_NEW(none, 3 * m->nn, err));
+    memset(stress, 0, (size_t)(PM_MIXED * m->nb * m->space.type->nq) * sizeof *stress);
+    PM_TRY(pm_model_factor(m, c, none, none, stress, definite, err));
+    for (ptrdiff_t k = 0; k < m->nq; k++)
+        s->dq[k] = -s->g[k];
+    if (*definite)
+        PM_TRY(pm_model_solve(m, s->dq, 1, 0.0, err));
+    s->r->backoffs++;
+    pm_log(2, "load %.4f: settling at relative residual %.4g", s->r->lambda, s->residual);
+done:
+    pm_free(none);
+    pm_free(stress);
+    return status;
+}
+
 /* c moved by the largest of dq, dq/2, .. that inverts no element; the mixed stresses follow. */
 static enum pm_status advance(struct pm_newton *s, struct pm_config *c, int *moved,
                               struct pm_err *err)
@@ -151,6 +177,10 @@ enum pm_status pm_newton_solve(struct pm_newton *s, struct pm_config *c, double 
             break;
         }
         PM_TRY(correct(s, c, tolerance, mixed, &definite, err));
+        if (!definite && s->settles > 0) {
+            s->settles--;
+            PM_TRY(settle(s, c, &definite, err));
+        }
         if (!definite) {
             *reached =
                 pm_newton_refuse(s, "tangent lost definiteness at relative residual", s->residual);

@@ -21,6 +21,7 @@ struct pm_newton {
     double *dq, *nodal; /* correction (nq), (nn x 3) */
     struct pm_config trial;
     struct pm_warp *warp;
+    int settles; /* corrections left that an indefinite tangent is replaced in, backoffs all */
 };
 
 /* f (nn x 3) and volume (nc) are the caller's. */
