@@ -24,15 +24,17 @@ static void nest(const struct pm_surface *a, struct pm_surface *b)
     memcpy(b->tri, a->tri, (size_t)(3 * a->nt) * sizeof *b->tri);
 }
 
-/* A waist at half height whose two sides go through each other. */
+/* The wall at the largest x is pushed in and out again through the one opposite to it. */
 static void pinch(struct pm_surface *s)
 {
-    double mean[3] = {0};
-    for (ptrdiff_t i = 0; i < 3 * s->n; i++)
-        mean[i % 3] += s->phi[i] / (double)s->n;
+    double low = HUGE_VAL, high = -HUGE_VAL;
     for (ptrdiff_t a = 0; a < s->n; a++) {
-        const double z = (s->phi[3 * a + 2] - mean[2]) / 5;
-        s->phi[3 * a] = mean[0] + (s->phi[3 * a] - mean[0]) * (1 - 1.4 * exp(-z * z));
+        low = fmin(low, s->phi[3 * a]);
+        high = fmax(high, s->phi[3 * a]);
+    }
+    for (ptrdiff_t a = 0; a < s->n; a++) {
+        const double part = (s->phi[3 * a] - low) / (high - low);
+        s->phi[3 * a] -= 1.5 * (high - low) * pow(part, 6);
     }
 }
 

@@ -1,5 +1,6 @@
 #include "tools/tetmesh/reuse.h"
 
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -14,8 +15,9 @@
 #include "tools/tetmesh/weights.h"
 
 /* What a morphed mesh must keep of the scaled Jacobian and of the mean ratio of the straight
- * tetrahedra: new ones have 0.2 and 0.15 or more. */
-static const double min_scaled = 0.1, min_mean_ratio = 0.1;
+ * tetrahedra: new ones have 0.2 and, where they are curved most, 0.05; those below min_mean_ratio
+ * keep a part of what they have. */
+static const double min_scaled = 0.1, min_mean_ratio = 0.1, kept_mean_ratio = 0.8;
 /* And the part of its surfaces where edges are too long may grow by this: at 0.05 more, measures of
  * evolved designs were 1.4 to 3.9 % off those on a new mesh, at 0.3 more 26 %. */
 static const double coarser = 0.03;
@@ -29,25 +31,33 @@ struct quality {
     double scaled, mean_ratio;
 };
 
-static int bears(const struct pm_mesh *m, struct quality *q)
+/* What the mesh m must keep, by what it was generated with. */
+static struct quality least_of(const struct pm_mesh *m)
+{
+    struct quality q;
+    pm_curve_quality(m, m->x_generated, &q.scaled, &q.mean_ratio);
+    return (struct quality){min_scaled, fmin(min_mean_ratio, kept_mean_ratio * q.mean_ratio)};
+}
+
+static int bears(const struct pm_mesh *m, const struct quality *least, struct quality *q)
 {
     pm_curve_quality(m, m->x, &q->scaled, &q->mean_ratio);
-    return q->scaled >= min_scaled && q->mean_ratio >= min_mean_ratio;
+    return q->scaled >= least->scaled && q->mean_ratio >= least->mean_ratio;
 }
 
 /* Moves the nodes of m to control points phi by the extension of its record. *good = 0 where its
  * elements do not bear that. */
-static enum pm_status follow(const double *phi, struct pm_mesh *m, int *good, struct quality *q,
-                             ptrdiff_t *damped, struct pm_err *err)
+static enum pm_status follow(const double *phi, const struct quality *least, struct pm_mesh *m,
+                             int *good, struct quality *q, ptrdiff_t *damped, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_extension *ext = NULL;
     PM_TRY(pm_extension_new(m, &ext, err));
     PM_TRY(pm_mesh_morph(m, ext, phi, err));
-    *good = bears(m, q);
-    if (!*good && q->mean_ratio >= min_mean_ratio) {
+    *good = bears(m, least, q);
+    if (!*good && q->mean_ratio >= least->mean_ratio) {
         PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, damped, err));
-        *good = bears(m, q);
+        *good = bears(m, least, q);
     }
 done:
     pm_extension_free(ext);
@@ -56,8 +66,9 @@ done:
 
 /* The same from where the nodes are, inside as an elastic solid and with distorted elements
  * relieved: x_generated, the record, begins anew there. The mesh is its own image at `planes`. */
-static enum pm_status renew(const double *phi, unsigned planes, struct pm_mesh *m, int *good,
-                            struct quality *q, ptrdiff_t *damped, struct pm_err *err)
+static enum pm_status renew(const double *phi, unsigned planes, const struct quality *least,
+                            struct pm_mesh *m, int *good, struct quality *q, ptrdiff_t *damped,
+                            struct pm_err *err)
 {
     enum pm_status status = PM_OK;
     struct pm_extension *ext = NULL;
@@ -71,11 +82,11 @@ static enum pm_status renew(const double *phi, unsigned planes, struct pm_mesh *
     PM_TRY(pm_extension_new(m, &ext, err));
     PM_TRY(pm_mesh_morph(m, ext, phi, err));
     PM_TRY(pm_relocate(&o, m, &left, err));
-    *good = bears(m, q);
+    *good = bears(m, least, q);
     if (!*good) {
         PM_TRY(pm_redamp(m, ext, phi, redamp_scaled, damped, err));
         PM_TRY(pm_relocate(&o, m, &left, err));
-        *good = bears(m, q);
+        *good = bears(m, least, q);
     }
     memcpy(m->x_generated, m->x, (size_t)(3 * m->nn) * sizeof *m->x);
 done:
@@ -90,14 +101,15 @@ static enum pm_status morph(struct pm_reuse *r, int anew, struct pm_mesh *m, str
 {
     enum pm_status status = PM_OK;
     double *phi = NULL;
+    const struct quality least = least_of(m);
     struct quality q;
     ptrdiff_t damped = 0;
     PM_TRY(PM_NEW(phi, 3 * m->N, err));
     pm_surfaces_gather(r->s, phi);
     if (anew) /* the mesh is its own image at the planes that do not cut it */
-        PM_TRY(renew(phi, r->y->planes & ~r->planes, m, &r->good, &q, &damped, err));
+        PM_TRY(renew(phi, r->y->planes & ~r->planes, &least, m, &r->good, &q, &damped, err));
     else
-        PM_TRY(follow(phi, m, &r->good, &q, &damped, err));
+        PM_TRY(follow(phi, &least, m, &r->good, &q, &damped, err));
     m->min_jacobian = q.scaled;
     m->origin = PM_ORIGIN_MORPHED;
     pm_log(
