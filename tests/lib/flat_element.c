@@ -43,7 +43,8 @@ static int flatten(struct pm_mesh *m, ptrdiff_t e, double *x, double *ratio)
     const size_t size = 3 * (size_t)m->nn * sizeof *x;
     double scaled;
 
-    for (double t = 0.5; t < 0.99; t += 0.01) {
+    for (int percent = 50; percent < 99; percent++) {
+        const double t = percent / 100.0;
         double d[3];
         memcpy(x, m->x_generated, size);
         for (int j = 0; j < 3; j++)
