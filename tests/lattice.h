@@ -7,6 +7,8 @@
 #include <stdint.h>
 #include <string.h>
 
+#include "common/mechanics/tet10.h"
+
 struct lattice {
     int n[3];      /* cells along each axis */
     int mirror[3]; /* cells below it are cut as images of those above; 0: none */
@@ -70,7 +72,6 @@ static inline int32_t lattice_middle(const struct lattice *l, const int a[3], co
 /* Tetrahedron t of a cell, positive, edges (01)(12)(20)(30)(23)(13). */
 static inline void lattice_tet(const struct lattice *l, const int cell[3], int t, int32_t node[10])
 {
-    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
     int v[4][3], axis[3], at[4] = {0, 1, 2, 3};
     if (lattice_vertices(l, cell, t, v, axis) < 0) {
         at[1] = 2;
@@ -79,7 +80,7 @@ static inline void lattice_tet(const struct lattice *l, const int cell[3], int t
     for (int k = 0; k < 4; k++)
         node[k] = lattice_node(l, v[at[k]]);
     for (int k = 0; k < 6; k++)
-        node[4 + k] = lattice_middle(l, v[at[edge[k][0]]], v[at[edge[k][1]]]);
+        node[4 + k] = lattice_middle(l, v[at[pm_tet10_edge[k][0]]], v[at[pm_tet10_edge[k][1]]]);
 }
 
 /* Its faces on the boundary, at most two; how many. */

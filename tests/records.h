@@ -13,6 +13,7 @@
 #include "common/files/surfaces.h"
 #include "common/files/sweep.h"
 #include "common/files/work.h"
+#include "common/mechanics/tet10.h"
 
 static const char sample_case_text[] =
     "[case]\nname = sample\n"
@@ -87,7 +88,6 @@ static inline enum pm_status sample_mesh(struct pm_mesh *m, struct pm_err *err)
     static const int32_t faces[4][6] = {
         {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {1, 2, 3, 5, 8, 9}, {0, 3, 2, 7, 8, 6}};
     static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
     *m = (struct pm_mesh){.nn = 10,
                           .ne = 1,
                           .nf = 4,
@@ -112,7 +112,9 @@ static inline enum pm_status sample_mesh(struct pm_mesh *m, struct pm_err *err)
     for (int a = 0; a < 10; a++) {
         for (int i = 0; i < 3; i++)
             m->x[3 * a + i] =
-                a < 4 ? corner[a][i] : (corner[edge[a - 4][0]][i] + corner[edge[a - 4][1]][i]) / 2;
+                a < 4
+                    ? corner[a][i]
+                    : (corner[pm_tet10_edge[a - 4][0]][i] + corner[pm_tet10_edge[a - 4][1]][i]) / 2;
         m->tet[a] = a;
         m->surface[a] = a < 2 ? a : -1;
         m->wptr[a + 1] = a < 2 ? 2 * (a + 1) : 4;

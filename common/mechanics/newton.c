@@ -2,7 +2,6 @@
 
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
@@ -117,7 +116,6 @@ static enum pm_status settle(struct pm_newton *s, const struct pm_config *c, int
     double *none = NULL;
     PM_TRY(pm_model_mixed_new(m, &stress, err));
     PM_TRY(PM_NEW(none, 3 * m->nn, err));
-    memset(stress, 0, (size_t)(PM_MIXED * m->nb * m->space.type->nq) * sizeof *stress);
     PM_TRY(pm_model_factor(m, c, none, none, stress, definite, err));
     for (ptrdiff_t k = 0; k < m->nq; k++)
         s->dq[k] = -s->g[k];

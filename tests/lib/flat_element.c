@@ -7,9 +7,8 @@
 
 #include "common/base/memory.h"
 #include "common/files/mesh.h"
+#include "common/mechanics/tet10.h"
 #include "tools/tetmesh/curve.h"
-
-static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 
 /* Moves vertex `a` by d and the middles of its edges by half of that; 0 where one is on a surface.
  */
@@ -22,7 +21,7 @@ static int push(const struct pm_mesh *m, int32_t a, const double d[3], double *x
         const int32_t *v = &m->tet[10 * e];
         for (int k = 0; k < 6; k++) {
             const int32_t b = v[4 + k];
-            if ((v[edge[k][0]] != a && v[edge[k][1]] != a) || done[b])
+            if ((v[pm_tet10_edge[k][0]] != a && v[pm_tet10_edge[k][1]] != a) || done[b])
                 continue;
             inside = inside && m->surface[b] < 0;
             done[b] = 1;

@@ -13,6 +13,7 @@
 
 #include "common/base/memory.h"
 #include "common/mechanics/model.h"
+#include "common/mechanics/tet10.h"
 
 enum { I, J, K };
 enum { STEPS = 8 }; /* of the load */
@@ -61,13 +62,12 @@ static const int32_t cook_tag[3][2] = {{PM_FACE_BASE, PM_FACE_EXTERIOR},
 /* n corners of a simplex with the middles of its edges, order of gmsh. */
 static void put_nodes(const struct slice *s, int corner[][3], int n, int32_t *v)
 {
-    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
     for (int a = 0; a < n; a++)
         v[a] = node(s, corner[a]);
     for (int k = 0; k < (n == 4 ? 6 : 3) && s->spread == 1; k++) {
         int c[3];
         for (int i = 0; i < 3; i++)
-            c[i] = (corner[edge[k][0]][i] + corner[edge[k][1]][i]) / 2;
+            c[i] = (corner[pm_tet10_edge[k][0]][i] + corner[pm_tet10_edge[k][1]][i]) / 2;
         v[n + k] = node(s, c);
     }
 }

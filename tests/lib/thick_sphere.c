@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "common/files/state.h"
+#include "common/mechanics/tet10.h"
 
 enum { MAX_SIDE = 16, MAX_NODES = 100000 };
 
@@ -60,7 +61,6 @@ static int middle(struct octant *o, int a, int b)
 
 static void add_tet(struct octant *o, int a, int b, int c, int d)
 {
-    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
     int *v = o->tet[o->ne++];
     double u[3][3];
     const int order[4] = {a, b, c, d};
@@ -76,7 +76,7 @@ static void add_tet(struct octant *o, int a, int b, int c, int d)
         v[2] = b;
     }
     for (int k = 0; k < 6; k++)
-        v[4 + k] = middle(o, v[edge[k][0]], v[edge[k][1]]);
+        v[4 + k] = middle(o, v[pm_tet10_edge[k][0]], v[pm_tet10_edge[k][1]]);
 }
 
 static void add_tri(struct octant *o, int group, int a, int b, int c)

@@ -13,7 +13,6 @@
 #include "tools/tetmesh/walls.h"
 
 static const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 
 static double noise(int i)
 {
@@ -24,9 +23,11 @@ static void element(double amount, double X[30])
 {
     for (int a = 0; a < 10; a++)
         for (int i = 0; i < 3; i++)
-            X[3 * a + i] = (a < 4 ? corner[a][i]
-                                  : (corner[edge[a - 4][0]][i] + corner[edge[a - 4][1]][i]) / 2) +
-                           amount * noise(3 * a + i);
+            X[3 * a + i] =
+                (a < 4 ? corner[a][i]
+                       : (corner[pm_tet10_edge[a - 4][0]][i] + corner[pm_tet10_edge[a - 4][1]][i]) /
+                             2) +
+                amount * noise(3 * a + i);
 }
 
 /* det of the polynomial sum_k b_k B_k at barycentric L: the order of quality.h. */
@@ -226,7 +227,7 @@ static void check_relocate(struct pm_err *err)
         const int32_t *v = flat + 4 * k;
         memcpy(tet + 10 * k, v, 4 * sizeof *v);
         for (int j = 0; j < 6; j++) {
-            const int32_t a = v[edge[j][0]], b = v[edge[j][1]];
+            const int32_t a = v[pm_tet10_edge[j][0]], b = v[pm_tet10_edge[j][1]];
             const ptrdiff_t n = VERTICES + pm_edges_find(&e, a, b);
             tet[10 * k + 4 + j] = (int32_t)n;
             for (int i = 0; i < 3; i++)

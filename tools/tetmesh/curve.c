@@ -5,6 +5,7 @@
 
 #include "common/base/memory.h"
 #include "common/mechanics/extension.h"
+#include "common/mechanics/tet10.h"
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/quality.h"
 #include "tools/tetmesh/relocate.h"
@@ -12,7 +13,6 @@
 
 const double pm_curve_bound = 0.2;
 static const double room_mean_ratio = 0.2, least_mean_ratio = 0.05;
-static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 
 struct curving {
     const struct pm_surfaces *s;
@@ -55,7 +55,7 @@ static enum pm_status connect(struct curving *c, const struct pm_tetra *tetra, s
         int32_t *v = m->tet + 10 * e;
         memcpy(v, tetra->tet + 4 * e, 4 * sizeof *v);
         for (int k = 0; k < 6; k++)
-            v[4 + k] = middle(c, v[tet_edge[k][0]], v[tet_edge[k][1]]);
+            v[4 + k] = middle(c, v[pm_tet10_edge[k][0]], v[pm_tet10_edge[k][1]]);
     }
     PM_TRY(PM_NEW(c->straight, 3 * m->nn, err));
     memcpy(c->straight, tetra->x, (size_t)(3 * c->nv) * sizeof *c->straight);

@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "common/base/memory.h"
+#include "common/mechanics/tet10.h"
 
-static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 static const int tet_face[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
 
 static int ascending(const void *a, const void *b)
@@ -51,8 +51,8 @@ enum pm_status pm_edges_new(ptrdiff_t nv, ptrdiff_t ne, const int32_t *tet, stru
     PM_TRY(PM_NEW(next, nv, err));
     for (int pass = 0; pass < 2; pass++) {
         for (ptrdiff_t k = 0; k < 6 * ne; k++) {
-            const int32_t p = tet[4 * (k / 6) + tet_edge[k % 6][0]],
-                          q = tet[4 * (k / 6) + tet_edge[k % 6][1]];
+            const int32_t p = tet[4 * (k / 6) + pm_tet10_edge[k % 6][0]],
+                          q = tet[4 * (k / 6) + pm_tet10_edge[k % 6][1]];
             const int32_t a = p < q ? p : q, b = p < q ? q : p;
             if (pass == 0)
                 e->ptr[a + 1]++;

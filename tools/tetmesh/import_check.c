@@ -11,7 +11,6 @@
 
 /* Nodes closer than this part of the body's extent are one. */
 static const double coincide = 1e-10;
-static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 
 static double extent(const struct pm_mesh *m)
 {
@@ -168,7 +167,8 @@ enum pm_status pm_import_check_middles(const struct pm_mesh *m, const int32_t *v
     memset(middle, 0xff, (size_t)edges.n * sizeof *middle);
     for (ptrdiff_t k = 0; k < 6 * m->ne; k++) {
         const int32_t *v = m->tet + 10 * (k / 6), a = v[4 + k % 6];
-        const ptrdiff_t e = pm_edges_find(&edges, v[edge[k % 6][0]], v[edge[k % 6][1]]);
+        const ptrdiff_t e =
+            pm_edges_find(&edges, v[pm_tet10_edge[k % 6][0]], v[pm_tet10_edge[k % 6][1]]);
         if (middle[e] >= 0 && middle[e] != a)
             PM_TRY(pm_fail(err, PM_INPUT,
                            "the edge of nodes %lld and %lld has two middle nodes, %lld and %lld",

@@ -8,6 +8,7 @@
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
+#include "common/mechanics/tet10.h"
 #include "tools/tetmesh/curve.h"
 #include "tools/tetmesh/edges.h"
 #include "tools/tetmesh/import_check.h"
@@ -15,7 +16,6 @@
 #include "tools/tetmesh/volume_gmsh.h"
 
 enum { NO_TAG = INT32_MIN };
-static const int tet_edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
 /* Faces out of the tetrahedron: vertices, middles. */
 static const int tet_face[4][6] = {
     {0, 2, 1, 6, 5, 4}, {0, 1, 3, 4, 9, 7}, {1, 2, 3, 5, 8, 9}, {0, 3, 2, 7, 8, 6}};
@@ -136,7 +136,8 @@ static enum pm_status promote(struct importing *c, struct pm_err *err)
         int32_t *v = m->tet + 10 * e;
         memcpy(v, c->vertices + 4 * e, 4 * sizeof *v);
         for (int k = 0; k < 6; k++)
-            v[4 + k] = (int32_t)(nv + pm_edges_find(&edges, v[tet_edge[k][0]], v[tet_edge[k][1]]));
+            v[4 + k] = (int32_t)(nv + pm_edges_find(&edges, v[pm_tet10_edge[k][0]],
+                                                    v[pm_tet10_edge[k][1]]));
     }
 done:
     pm_edges_release(&edges);

@@ -63,13 +63,13 @@ double pm_quality_mean_ratio(const double X[12])
 
 void pm_quality_gather(const struct pm_mesh *m, const double *x, ptrdiff_t e, double X[30])
 {
-    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
     const int32_t *v = m->tet + m->npe * e;
     for (ptrdiff_t a = 0; a < m->npe; a++)
         memcpy(X + 3 * a, x + 3 * (ptrdiff_t)v[a], 3 * sizeof *X);
     for (int k = 0; k < 6 && m->npe == 4; k++)
         for (int i = 0; i < 3; i++)
-            X[12 + 3 * k + i] = (X[3 * edge[k][0] + i] + X[3 * edge[k][1] + i]) / 2;
+            X[12 + 3 * k + i] =
+                (X[3 * pm_tet10_edge[k][0] + i] + X[3 * pm_tet10_edge[k][1] + i]) / 2;
 }
 
 /* Nodes of face f (6 x 3); a 3-node one gets the middles of its edges. */

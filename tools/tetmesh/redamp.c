@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "common/base/memory.h"
+#include "common/mechanics/tet10.h"
 #include "tools/tetmesh/quality.h"
 
 static const double SHARE = 0.7; /* of a mid-side node's own weights that a sweep keeps */
@@ -13,7 +14,6 @@ enum { SWEEPS = 3 };             /* then 0.34 are left and a new mesh is better 
  * elsewhere (nn x 2). */
 static ptrdiff_t find_bad(const struct pm_mesh *m, double bound, int32_t *ends)
 {
-    static const int edge[6][2] = {{0, 1}, {1, 2}, {2, 0}, {3, 0}, {2, 3}, {1, 3}};
     ptrdiff_t bad = 0;
 
     for (ptrdiff_t i = 0; i < 2 * m->nn; i++)
@@ -26,7 +26,7 @@ static ptrdiff_t find_bad(const struct pm_mesh *m, double bound, int32_t *ends)
             continue;
         bad++;
         for (int k = 0; k < 6; k++) {
-            const int32_t a = v[4 + k], i = v[edge[k][0]], j = v[edge[k][1]];
+            const int32_t a = v[4 + k], i = v[pm_tet10_edge[k][0]], j = v[pm_tet10_edge[k][1]];
             if (m->surface[a] < 0 || m->surface[i] < 0 || m->surface[j] < 0)
                 continue;
             ends[2 * a] = i;
