@@ -47,6 +47,11 @@ check "VTKHDF: triangles" sh -c "h5dump -d /VTKHDF/Types -s 0 -c 1 '$work/body.v
 check "VTKHDF of a mould" "$export" -q --what mould1 "$work/s.h5" -o "$work/mould.h5"
 check "has no wall" sh -c "! h5ls -r '$work/mould.h5' | grep -q /skin/wall"
 
+# An optimised design bends more between its control points than at them.
+expect 0 "an optimised design" "$export" -vv data/designs/2A0R2T.h5 -o "$work/folds.stl"
+check "triangles are split where its folds ask for it" grep -q '^surfexport: surface 1: [0-9]* triangles and [1-9][0-9]* by splits, 0.0[0-9]* mm off' "$work/err"
+check "closed and oriented" sound "$work/folds.stl" 3
+
 # gmsh fills the body, tetmesh takes it back with its groups.
 check "gmsh file" "$export" -q --size 8 --tolerance 0.5 "$work/s.h5" -o "$work/skin.msh"
 check "gmsh meshes it" fill_body "$work/skin.msh" "$work/body.msh"

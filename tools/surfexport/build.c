@@ -10,73 +10,33 @@
 #include "common/geometry/curvature.h"
 #include "common/geometry/remesh.h"
 #include "tools/surfexport/close.h"
+#include "tools/surfexport/refine.h"
 
-/* Largest distance of the surface from one triangle, at the middles of its edges and its own. */
-static enum pm_status chord_of(const struct pm_surface *s, const struct pm_map *map,
-                               struct pm_basis *work, const struct pm_patch *p, ptrdiff_t t,
-                               double *error, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    const int32_t *v = p->tri + 3 * t;
-    double S[4][3], r[3], foot[3];
-    for (int k = 0; k < 3; k++)
-        pm_map_middle(s->type, p->S + 3 * (ptrdiff_t)v[k], p->S + 3 * (ptrdiff_t)v[(k + 1) % 3],
-                      S[k]);
-    /* two thirds of the way from a corner to the middle of the other side, nearly */
-    pm_map_middle(s->type, S[0], S[1], S[3]);
-    pm_map_middle(s->type, S[3], S[2], S[3]);
-    for (int k = 0; k < 4; k++) {
-        PM_TRY(pm_map_point(map, s->phi, S[k], work, r, NULL, NULL, err));
-        *error = fmax(*error,
-                      pm_collide_closest(r, p->x + 3 * (ptrdiff_t)v[0], p->x + 3 * (ptrdiff_t)v[1],
-                                         p->x + 3 * (ptrdiff_t)v[2], foot));
-    }
-done:
-    return status;
-}
-
-static enum pm_status chord(const struct pm_surface *s, const struct pm_map *map,
-                            const struct pm_patch *p, double *error, struct pm_err *err)
-{
-    enum pm_status status = PM_OK;
-    struct pm_basis work = {0};
-    *error = 0;
-    for (ptrdiff_t t = 0; t < p->nt; t++)
-        PM_TRY(chord_of(s, map, &work, p, t, error, err));
-done:
-    pm_basis_release(&work);
-    return status;
-}
-
-/* Curved enough triangles to keep the tolerance: edges of sqrt(8 e / c) leave e, those that come
- * out up to 4/3 longer 16/9 e. */
+/* Edges of sqrt(8 e / c) leave e, those that come out up to 4/3 longer 16/9 e; what is bent more
+ * between the places where its curvature was seen is split. */
 static enum pm_status triangulate(const struct pm_surface *s, const struct pm_map *map, int k,
                                   double size, double tolerance, struct pm_patch *p, double *error,
                                   struct pm_err *err)
 {
-    enum { ATTEMPTS = 6 };
+    enum { ROUNDS = 12 };
     enum pm_status status = PM_OK;
-    struct pm_remesh_opts o = {.size = size,
-                               .size_min = size / 100,
-                               .crest = 1.2,
-                               .chord = 9 * tolerance / 16,
-                               .growth = 0.35,
-                               .sweeps = 8};
-    for (int attempt = 0; attempt < ATTEMPTS; attempt++) {
-        pm_patch_release(p);
-        PM_TRY(pm_remesh(s, k, &o, p, err));
-        PM_TRY(chord(s, map, p, error, err));
-        pm_log(2, "surface %d, attempt %d: %td triangles, %.4f mm off", k, attempt + 1, p->nt,
-               *error);
-        if (*error <= tolerance)
-            goto done;
-        o.chord *= 0.8 * tolerance / *error;
-        o.size *= attempt > 0 ? 0.7 : 1;
-    }
-    status = pm_fail(err, PM_NUMERIC,
-                     "surface %d stays %.3g mm from its triangles, expected at most %.3g mm: "
-                     "smaller edges (--size) may do",
-                     k, *error, tolerance);
+    const struct pm_remesh_opts o = {.size = size,
+                                     .size_min = size / 100,
+                                     .crest = 1.2,
+                                     .chord = 9 * tolerance / 16,
+                                     .growth = 0.35,
+                                     .sweeps = 8};
+    pm_patch_release(p);
+    PM_TRY(pm_remesh(s, k, &o, p, err));
+    const ptrdiff_t nt = p->nt;
+    PM_TRY(patch_refine(s, map, tolerance, ROUNDS, p, error, err));
+    pm_log(2, "surface %d: %td triangles and %td by splits, %.4f mm off", k, nt, p->nt - nt,
+           *error);
+    if (*error > tolerance)
+        PM_TRY(pm_fail(err, PM_NUMERIC,
+                       "surface %d stays %.3g mm from its triangles, expected at most %.3g mm: "
+                       "smaller edges (--size) may do",
+                       k, *error, tolerance));
 done:
     return status;
 }
