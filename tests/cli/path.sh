@@ -60,5 +60,11 @@ done
 check "damage" "$LIB/mangle" set "$work/s1.h5" /contact/intersections 0 7
 expect 0 "wsint" "$BIN/wsint" "$work"/s?.h5 -o "$work/work.h5"
 check "wsint warns" grep -q "penetrates itself in 1 of 4 states, with 7 pairs of faces in '.*s1.h5'" "$work/err"
+check "and of nothing else" test "$(grep -c warning "$work/err")" -eq 1
 check "wsint carries it on" test "$(numbers /point/intersections "$work/work.h5" | tr -s ' ')" = " 0 7 0 0 "
+for i in 0 1 2 3; do
+    check "dU/dp grows" "$LIB/mangle" set "$work/s3.h5" /tip/J "$i" 1e6
+done
+expect 0 "wsint" "$BIN/wsint" "$work"/s?.h5 -o "$work/work.h5"
+check "warns of a loss of stability" grep -q "amplification [0-9.e+]*, above amplification_max = 1.5: close to a loss of stability 2 points" "$work/err"
 finish

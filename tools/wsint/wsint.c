@@ -99,6 +99,16 @@ static void check_contact(const struct wsint_design *d)
                 n, d->np, (long long)d->points[worst].intersections, d->points[worst].path);
 }
 
+/* The measures of runs that went on there were up to 2.8 times their dense values. */
+static void check_stability(const struct pm_case *c, const struct pm_work *w)
+{
+    if (c->amplification_max > 0 && w->amplification > c->amplification_max)
+        pm_warn(
+            "amplification %.3g, above amplification_max = %g: close to a loss of stability %ld "
+            "points per axis may not measure the workspace (make workspace does)",
+            w->amplification, c->amplification_max, c->points);
+}
+
 /* The chosen form into *work, the other one (if given) as its quadrature error. */
 static enum pm_status integrate(const struct wsint_design *d, enum pm_form form,
                                 struct pm_work *work, struct pm_err *err)
@@ -214,6 +224,7 @@ static enum pm_status run(const struct wsint_opts *opts, const struct pm_common 
         check_folds(d, work);
         check_rotations(d, work);
         check_contact(d);
+        check_stability(&d->pcase, work);
     }
     PM_TRY(pm_case_copy(&d->pcase, &work->pcase, err));
     PM_TRY(pm_h5_create(common->output, "work", common,
