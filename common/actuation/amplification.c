@@ -3,7 +3,7 @@
 #include <math.h>
 #include <string.h>
 
-static const double STRENGTH = 2;
+static const double STRENGTH = 20;
 
 /* Factors of the rows of J, 0 where they are not selected. */
 static void scale_rows(const struct pm_case *c, double scale[6])

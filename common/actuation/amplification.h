@@ -2,7 +2,7 @@
  * dU/dp grows without bound, and so does any measure summed over points: an optimiser would go
  * there. The objective is therefore the measure times
  *
- *   f = exp(-2 sum_g <ln(a_g/a_max)>^2),  a_g = |A_g| / (prod_h |A_h|)^(1/n),  <x> = max(x, 0),
+ *   f = exp(-20 sum_g <ln(a_g/a_max)>^2),  a_g = |A_g| / (prod_h |A_h|)^(1/n),  <x> = max(x, 0),
  *
  * A_g the selected rows of J at point g of n, those of rotations times the height of the body (the
  * lever of the case if given) where translations are among them [model 7]. */
