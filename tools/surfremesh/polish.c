@@ -13,8 +13,9 @@
  * crest that is at its limit, and to flatten the ripples wholly took 6 % of a measure. Largest
  * violations of that which are left; rho of the augmented Lagrangian [mm2] at the start, its growth
  * where a round leaves more than SLOW of a violation. Reach of the constraints [mm], several times
- * what a fit misses. */
-static const double RELAXED[2] = {1.2, 0.985}, LEFT[2] = {0.02, 0.005};
+ * what a fit misses. Beyond LOST, surfaces that have passed each other or ten times the curvature,
+ * no round found back. */
+static const double RELAXED[2] = {1.2, 0.985}, LEFT[2] = {0.02, 0.005}, LOST[2] = {100, 1};
 static const double RHO = 1, GROWTH = 3, SLOW = 0.3, REACH = 0.3;
 enum { ROUNDS = 8, LOOKS = 3 };
 
@@ -68,7 +69,13 @@ static int is_good(const struct pm_penalty_value *v)
     return v->worst[0] <= LEFT[0] && v->worst[1] <= LEFT[1];
 }
 
-/* The method of multipliers on one set of samples; *moved = 0 where nothing was to be done. */
+static int is_lost(const struct pm_penalty_value *v)
+{
+    return !(v->worst[0] <= LOST[0] && v->worst[1] <= LOST[1]);
+}
+
+/* The method of multipliers on one set of samples; *moved = 0 where nothing was to be done or it is
+ * lost. */
 static enum pm_status rounds(struct polish *p, double *z, int *moved, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -85,6 +92,10 @@ static enum pm_status rounds(struct polish *p, double *z, int *moved, struct pm_
         pm_log(2, "constraints, round %d: violations %.4f %.4f", round, v.worst[0], v.worst[1]);
         if (is_good(&v) || round == ROUNDS)
             break;
+        if (round > 0 && is_lost(&v)) {
+            *moved = 0;
+            break;
+        }
         for (int k = 0; k < 2 && round > 0; k++) {
             p->rho[k] *= v.worst[k] > fmax(LEFT[k], SLOW * last[k]) ? GROWTH : 1;
             last[k] = v.worst[k];
