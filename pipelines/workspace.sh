@@ -80,5 +80,6 @@ done
 cat "$out/table.md" "$out/shown"
 measure=$(awk '{ print $1 }' "$out/shown")
 "$BIN/pmplot" boundary "$out/workspace.h5" >"$out/boundary.dat"
-gnuplot -c pipelines/pictures/dense.gp "$out/boundary.dat" "$measure" "$out/workspace.png"
+IFS=, read -ra labels < <(sed -n '1s/^# [^:]*: //p' "$out/boundary.dat")
+gnuplot -c pipelines/pictures/dense.gp "$out/boundary.dat" "$measure" "$out/workspace.png" "${labels[@]# }"
 echo "$out/workspace.h5 $out/workspace.png"

@@ -17,6 +17,7 @@ check "VTKHDF: points" grep -q '^/VTKHDF/Points *Soft Link {/workspace/x}' "$wor
 check "VTKHDF: angle" grep -q '^/VTKHDF/PointData/angle *Soft Link' "$work/ls"
 check "VTKHDF: lines" sh -c "h5dump -d /VTKHDF/Types -s 0 -c 1 '$work/run/workspace/workspace.h5' | grep -q '(0): 3\$'"
 check "picture" test -s "$work/run/workspace/workspace.png"
+check "its axes" grep -q '^# 2T: U1 \[mm\], U3 \[mm\], 0, pointing angle \[degrees\]$' "$work/run/workspace/boundary.dat"
 cp "$work/run/workspace/workspace.h5" "$work/first.h5"
 check "again" dense CASE=tests/data/tiny.ini STEP=0.03
 check "equal bytes" cmp "$work/first.h5" "$work/run/workspace/workspace.h5"
@@ -47,6 +48,7 @@ check "both intervals" grep -q '^| dense, twice the interval | ' "$work/three/wo
 check "Gauss values beside it" awk -F '|' 'NR == 3 { dense = $4 } NR > 3 { n++; d = $4 / dense - 1; if (d * d > 2.5e-3) bad = 1 }
     END { exit bad || n != 3 }' "$work/three/workspace/table.md"
 check "its picture" test -s "$work/three/workspace/workspace.png"
+check "its axes" grep -q '^# 2R: n_x, n_y, n_z, pointing angle' "$work/three/workspace/boundary.dat"
 expect 2 "no design" make -s B="$BUILD" workspace
 check "says what it needs" grep -q 'expected CASE=' "$work/err"
 
