@@ -95,6 +95,7 @@ done:
     return status;
 }
 
+/* Nodes in the middle of the edges to split, and room for their triangles. */
 static enum pm_status add_middles(struct refining *f, struct pm_err *err)
 {
     enum pm_status status = PM_OK;
@@ -103,6 +104,7 @@ static enum pm_status add_middles(struct refining *f, struct pm_err *err)
     PM_GROW(p->x, 3 * (p->nn + f->n), err);
     PM_GROW(p->size, p->nn + f->n, err);
     PM_GROW(p->rim, p->nn + f->n, err);
+    PM_GROW(p->tri, 12 * p->nt, err); /* a triangle becomes four at most */
     for (ptrdiff_t k = 0; k < f->n; k++) {
         const ptrdiff_t a = f->split[k].low, b = f->split[k].high, c = p->nn;
         pm_map_middle(f->s->type, p->S + 3 * a, p->S + 3 * b, p->S + 3 * c);
@@ -117,7 +119,7 @@ done:
     return status;
 }
 
-/* Triangle t by its split sides, the longest first: at most four. */
+/* Triangle t by its split sides, the longest first. */
 static void cut(struct refining *f, ptrdiff_t t)
 {
     struct pm_patch *p = f->p;
@@ -155,7 +157,6 @@ enum pm_status patch_refine(const struct pm_surface *s, const struct pm_map *map
     for (int round = 0; round < rounds && f.n > 0; round++) {
         const ptrdiff_t nt = p->nt;
         PM_TRY(add_middles(&f, err));
-        PM_GROW(p->tri, 12 * nt, err);
         for (ptrdiff_t t = 0; t < nt; t++)
             cut(&f, t);
         PM_TRY(look(&f, tolerance, error, err));
