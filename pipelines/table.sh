@@ -21,9 +21,9 @@ shown() {
     [ ! -e "$1/workspace/workspace.h5" ] || "$BIN/wsint" --show "$1/workspace/workspace.h5"
 }
 
-# dense RUN: its value and unit.
+# dense RUN: its value and unit, none of a pure number.
 dense() {
-    shown "$1" | awk '{ print $3, $4 }'
+    shown "$1" | sed 's/^[^=]*= //; s/ (dense.*//; s/ 1$//'
 }
 
 # title RUN: the name of its case, with the measure where the workspace has another one.
@@ -35,10 +35,10 @@ title() {
         END { print name (measure != "" && measure != own ? " " measure : "") }' "$case" -
 }
 
-# gain VALUE UNIT OTHER UNIT
+# gain "VALUE UNIT" "OTHER UNIT"
 gain() {
-    [ "$2" = "$4" ] || { echo "compare: units differ: $2 and $4" >&2; exit 3; }
-    awk -v a="$1" -v b="$3" 'BEGIN { printf "%+.0f %%\n", 100 * (a / b - 1) }'
+    [ "${1#"${1%% *}"}" = "${2#"${2%% *}"}" ] || { echo "compare: units differ: $1 and $2" >&2; exit 3; }
+    awk -v a="${1%% *}" -v b="${2%% *}" 'BEGIN { printf "%+.0f %%\n", 100 * (a / b - 1) }'
 }
 
 # history RUN: first and last value, steps, minutes.
@@ -55,8 +55,7 @@ row() {
     local value angles over=- baseline=${baselines[${2%%-*}]:-}
     value=$(dense "$1")
     angles=$(shown "$1" | sed 's/.*pointing angle //; s/ degrees$//')
-    # shellcheck disable=SC2046 # values and units are words
-    [ -z "$value" ] || [ -z "$baseline" ] || over=$(gain $value $(dense "$baseline"))
+    [ -z "$value" ] || [ -z "$baseline" ] || over=$(gain "$value" "$(dense "$baseline")")
     echo "| $2 | $1 | $(history "$1") | ${value:--} | ${angles:--} | $over | $3 |"
 }
 
@@ -101,7 +100,7 @@ compare)
             { echo "compare: '$run' has no dense workspace, expected RUN and BASELINE after 'make workspace'" >&2; exit 2; }
     done
     of=$(dense "$2") over=$(dense "$3")
-    # shellcheck disable=SC2086
-    echo "$2 $of, $3 $over: $(gain $of $over)"
+    ratio=$(gain "$of" "$over")
+    echo "$2 $of, $3 $over: $ratio"
     ;;
 esac

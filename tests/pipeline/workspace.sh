@@ -49,6 +49,8 @@ check "Gauss values beside it" awk -F '|' 'NR == 3 { dense = $4 } NR > 3 { n++; 
     END { exit bad || n != 3 }' "$work/three/workspace/table.md"
 check "its picture" test -s "$work/three/workspace/workspace.png"
 check "its axes" grep -q '^# 2R: n_x, n_y, n_z, pointing angle' "$work/three/workspace/boundary.dat"
+expect 2 "areas are not compared with angles" make -s B="$BUILD" compare RUN="$work/three" BASELINE="$work/run"
+check "says so" grep -q '^compare: units differ: [0-9.e-]* sr and [0-9.e+]* mm2$' "$work/err"
 expect 2 "no design" make -s B="$BUILD" workspace
 check "says what it needs" grep -q 'expected CASE=' "$work/err"
 
