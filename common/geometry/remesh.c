@@ -284,6 +284,7 @@ enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct p
     enum pm_status status = PM_OK;
     struct pm_map *map = NULL;
     struct pm_edit m = {0};
+    double off = 0;
     *p = (struct pm_patch){0};
     PM_TRY(pm_map_new(s, &map, err));
     PM_TRY(pm_edit_init(&m, s, map, surface, err));
@@ -307,7 +308,13 @@ enum pm_status pm_remesh(const struct pm_surface *s, int surface, const struct p
                 PM_TRY(smooth_node(&m, a, err));
     }
     pm_edit_flip(&m);
+    const ptrdiff_t nt = m.nt;
+    if (o->tolerance > 0)
+        PM_TRY(pm_edit_hold(&m, o->tolerance, &off, err));
+    const ptrdiff_t splits = m.nt - nt;
     PM_TRY(pm_edit_finish(&m, p, err));
+    p->splits = splits;
+    p->off = off;
 done:
     pm_edit_release(&m);
     pm_map_free(map);

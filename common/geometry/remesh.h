@@ -8,11 +8,12 @@
 #include "common/geometry/surface_map.h"
 
 struct pm_remesh_opts {
-    double size;     /* wanted edge length [mm] */
-    double size_min; /* its lower bound where the surface is curved [mm] */
-    double crest;    /* edge length <= crest / curvature [1] */
-    double chord;    /* edge length <= sqrt(8 chord / curvature), 0: no such bound [mm] */
-    double growth;   /* largest change of the wanted length per unit length [1] */
+    double size;      /* wanted edge length [mm] */
+    double size_min;  /* its lower bound where the surface is curved [mm] */
+    double crest;     /* edge length <= crest / curvature [1] */
+    double chord;     /* edge length <= sqrt(8 chord / curvature), 0: no such bound [mm] */
+    double tolerance; /* of the surface from its triangles, 0: none [mm] */
+    double growth;    /* largest change of the wanted length per unit length [1] */
     int sweeps;
     /* a further upper bound of the length at a place with this outward unit normal, or NULL */
     double (*bound)(const void *data, const double x[3], const double normal[3], double curvature);
@@ -23,11 +24,13 @@ struct pm_remesh_opts {
 /* A triangulated surface with parameters. */
 struct pm_patch {
     ptrdiff_t nn, nt;
-    double *S;    /* surface parameter                               (nn x 3) */
-    double *x;    /* r(S)                                            (nn x 3) [mm] */
-    double *size; /* wanted edge length                              (nn)     [mm] */
-    uint8_t *rim; /* bits: B-spline: 1 on v = 0, 2 on v = 1; pm_rim_plane; 0 elsewhere (nn) */
-    int32_t *tri; /* normal out of the closed surface                (nt x 3) */
+    double *S;        /* surface parameter                               (nn x 3) */
+    double *x;        /* r(S)                                            (nn x 3) [mm] */
+    double *size;     /* wanted edge length                              (nn)     [mm] */
+    uint8_t *rim;     /* bits: B-spline: 1 on v = 0, 2 on v = 1; pm_rim_plane; 0 elsewhere (nn) */
+    int32_t *tri;     /* normal out of the closed surface                (nt x 3) */
+    ptrdiff_t splits; /* triangles more for the tolerance */
+    double off;       /* distance of the surface from them, 0 where there is no tolerance [mm] */
 };
 
 /* Size h = min(size, crest / largest principal curvature, bound) >= size_min at nodes and in the

@@ -512,7 +512,8 @@ enum pm_status pm_edit_finish(struct pm_edit *m, struct pm_patch *p, struct pm_e
             m->tri[3 * nt + k] = id[m->tri[3 * t + k]];
         nt++;
     }
-    *p = (struct pm_patch){nn, nt, m->S, m->x, m->size, m->rim, m->tri};
+    *p = (struct pm_patch){
+        .nn = nn, .nt = nt, .S = m->S, .x = m->x, .size = m->size, .rim = m->rim, .tri = m->tri};
     m->S = m->x = m->size = NULL;
     m->rim = NULL;
     m->tri = NULL;

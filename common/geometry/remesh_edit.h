@@ -40,6 +40,10 @@ extern const double pm_edit_longest, pm_edit_shortest;
 /* Splits the longest edge of every triangle that has one longer than `ratio` times the wanted
  * length; *count edges. */
 enum pm_status pm_edit_split(struct pm_edit *m, double ratio, ptrdiff_t *count, struct pm_err *err);
+/* Splits the longest edge of every triangle that the surface leaves by more than `tolerance` mm at
+ * the middles of its edges or near its own, until there is none, in at most 13 rounds; *off: the
+ * largest distance that the last round saw [mm]. */
+enum pm_status pm_edit_hold(struct pm_edit *m, double tolerance, double *off, struct pm_err *err);
 /* Collapses edges shorter than pm_edit_shortest times the wanted length where topology,
  * orientation, normals and the lengths of the new edges allow; returns their number. */
 ptrdiff_t pm_edit_collapse(struct pm_edit *m);

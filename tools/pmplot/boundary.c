@@ -7,17 +7,16 @@
 /* Names and units of the coordinates: `wsint --measure` took the usual DoFs of that measure. */
 static void print_head(const struct pm_workspace *w, const int dofs[3])
 {
-    if (strcmp(w->name, "2R") == 0)
-        printf("# 2R: n_x, n_y, n_z");
-    else
+    if (strcmp(w->name, "2R") == 0) {
+        printf("# 2R: n_x, n_y, n_z, ");
+    } else {
         printf("# %s: ", w->name);
-    for (int i = 0; i < 3 && strcmp(w->name, "2R") != 0; i++) {
-        if (i < w->npe)
-            printf("%sU%d [%s]", i > 0 ? ", " : "", dofs[i] + 1, dofs[i] < 3 ? "mm" : "rad");
-        else
-            printf(", 0");
+        for (int i = 0; i < w->npe; i++)
+            printf("U%d [%s], ", dofs[i] + 1, dofs[i] < 3 ? "mm" : "rad");
+        if (w->npe == 2)
+            printf("0, ");
     }
-    printf(", pointing angle [degrees]\n");
+    printf("pointing angle [degrees]\n");
 }
 
 void pmplot_boundary(const struct pm_workspace *w)

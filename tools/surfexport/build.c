@@ -1,8 +1,6 @@
 #include "tools/surfexport/build.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
 #include "common/base/log.h"
 #include "common/base/memory.h"
@@ -10,33 +8,29 @@
 #include "common/geometry/curvature.h"
 #include "common/geometry/remesh.h"
 #include "tools/surfexport/close.h"
-#include "tools/surfexport/refine.h"
 
 /* Edges of sqrt(8 e / c) leave e, those that come out up to 4/3 longer 16/9 e; what is bent more
  * between the places where its curvature was seen is split. */
-static enum pm_status triangulate(const struct pm_surface *s, const struct pm_map *map, int k,
-                                  double size, double tolerance, struct pm_patch *p, double *error,
-                                  struct pm_err *err)
+static enum pm_status triangulate(const struct pm_surface *s, int k, double size, double tolerance,
+                                  struct pm_patch *p, struct pm_err *err)
 {
-    enum { ROUNDS = 12 };
     enum pm_status status = PM_OK;
     const struct pm_remesh_opts o = {.size = size,
                                      .size_min = size / 100,
                                      .crest = 1.2,
                                      .chord = 9 * tolerance / 16,
+                                     .tolerance = tolerance,
                                      .growth = 0.35,
                                      .sweeps = 8};
     pm_patch_release(p);
     PM_TRY(pm_remesh(s, k, &o, p, err));
-    const ptrdiff_t nt = p->nt;
-    PM_TRY(patch_refine(s, map, tolerance, ROUNDS, p, error, err));
-    pm_log(2, "surface %d: %td triangles and %td by splits, %.4f mm off", k, nt, p->nt - nt,
-           *error);
-    if (*error > tolerance)
+    pm_log(2, "surface %d: %td triangles and %td by splits, %.4f mm off", k, p->nt - p->splits,
+           p->splits, p->off);
+    if (p->off > tolerance)
         PM_TRY(pm_fail(err, PM_NUMERIC,
                        "surface %d stays %.3g mm from its triangles, expected at most %.3g mm: "
                        "smaller edges (--size) may do",
-                       k, *error, tolerance));
+                       k, p->off, tolerance));
 done:
     return status;
 }
@@ -89,11 +83,10 @@ enum pm_status skin_build(const struct pm_surfaces *s, double size, double toler
     *error = 0;
     for (ptrdiff_t k = 0; k < s->ns; k++) {
         const struct pm_surface *surface = &s->s[k];
-        double e = 0;
         PM_TRY(pm_map_new(surface, &map, err));
-        PM_TRY(triangulate(surface, map, (int)k, size, tolerance, &p, &e, err));
+        PM_TRY(triangulate(surface, (int)k, size, tolerance, &p, err));
         PM_TRY(add_patch(skin, surface, map, &p, (int32_t)k, err));
-        *error = fmax(*error, e);
+        *error = fmax(*error, p.off);
         if (k == 0) {
             PM_TRY(add_cap(skin, &p, 1, surface->phi[2], err));
             PM_TRY(add_cap(skin, &p, 2, surface->phi[3 * surface->n - 1], err));

@@ -90,12 +90,11 @@ static enum pm_status rounds(struct polish *p, double *z, int *moved, struct pm_
         PM_TRY(pm_penalty_collect(&p->penalty, p->trial, REACH, 0.8, err));
         pm_penalty_at(&p->penalty, p->trial, p->rho, NULL, &v);
         pm_log(2, "constraints, round %d: violations %.4f %.4f", round, v.worst[0], v.worst[1]);
-        if (is_good(&v) || round == ROUNDS)
-            break;
-        if (round > 0 && is_lost(&v)) {
+        const int lost = round > 0 && is_lost(&v);
+        if (lost)
             *moved = 0;
+        if (lost || is_good(&v) || round == ROUNDS)
             break;
-        }
         for (int k = 0; k < 2 && round > 0; k++) {
             p->rho[k] *= v.worst[k] > fmax(LEFT[k], SLOW * last[k]) ? GROWTH : 1;
             last[k] = v.worst[k];
